@@ -69,10 +69,6 @@ def rotation(q: Floats) -> Floats:
     return frame.of_quaternion(*(q / length))
 
 
-def _folder(path: Path) -> Path:
-    return path if path.is_dir() else path.parent
-
-
 def _is_of(source: Source) -> bool:
     path = source.path
     if path.is_dir():
@@ -81,7 +77,8 @@ def _is_of(source: Source) -> bool:
 
 
 def _read(source: Source) -> list[View]:
-    folder = _folder(source.path)
+    path = source.path
+    folder = path if path.is_dir() else path.parent
     if not (folder / CAMERAS).is_file():
         raise SceneError(
             f"it has no {CAMERAS}: `colmap model_converter --output_type TXT` writes it of a binary"
@@ -161,7 +158,7 @@ def _image(words: list[str], where: str, lenses: dict[str, _Lens]) -> View:
     matrix = frame.pose(rotation(pose[:4]), pose[4:])
     k, size = lenses[words[8]]
     name = words[9].strip()
-    return View(frame.pinhole(k, matrix, size, None, name), name, is_clipped=False)
+    return frame.pinhole(k, matrix, size, name)
 
 
 COLMAP = Convention(

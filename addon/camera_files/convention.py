@@ -62,7 +62,12 @@ class Source:
         except (ValueError, RecursionError):
             return None
 
-    def whole_size(self, own: Mapping[str, Any], keys: Sequence[str], where: str = "") -> Any:
+    def whole_size(
+        self,
+        own: Mapping[str, Any],
+        where: str = "",
+        keys: tuple[str, str] = ("width", "height"),
+    ) -> tuple[int, int]:
         """Return the width and height of a file's object, or else those requested.
 
         Raises
@@ -70,7 +75,7 @@ class Source:
         SceneError
             If there are none.
         """
-        if all(key in own for key in keys):
+        if own.keys() >= {*keys}:
             sizes = [own[key] for key in keys]
             if all(isinstance(n, float) and n.is_integer() for n in sizes):
                 return int(sizes[0]), int(sizes[1])  # as nerfstudio writes some

@@ -117,16 +117,13 @@ def _view(own: Content, label: str, name: str, world: Floats, source: Source) ->
         )
     world = world / (*axes, 1.0)
     far = _number(lens, label, "zfar") if "zfar" in lens else np.inf
-    return View(
-        frame.seen_from(
-            world,
-            ViewWindow(-across, across, -up, up),
-            size,
-            (_number(lens, label, "znear"), float(far)),
-            name,
-            ORTHOGRAPHIC if parallel else PERSPECTIVE,
-        ),
+    return frame.seen_from(
+        world,
+        ViewWindow(-across, across, -up, up),
+        size,
         name,
+        ORTHOGRAPHIC if parallel else PERSPECTIVE,
+        (_number(lens, label, "znear"), float(far)),
     )
 
 
@@ -146,7 +143,7 @@ def _size(own: Content, label: str, aspect: float | None, source: Source) -> tup
         width = SIZE[0] if height is None else max(1, round(height * ratio))
     height = height or max(1, round(width / ratio))
     asked = Source(source.path, (width, height))
-    size: tuple[int, int] = asked.whole_size(extras if isinstance(extras, dict) else {}, _KEYS)
+    size = asked.whole_size(extras if isinstance(extras, dict) else {})
     if aspect is not None and abs(size[0] / size[1] / aspect - 1) > 1 / min(size):
         raise SceneError(
             f"{label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
@@ -154,8 +151,6 @@ def _size(own: Content, label: str, aspect: float | None, source: Source) -> tup
         )
     return size
 
-
-_KEYS = "width", "height"
 
 GLTF = Convention(
     "gltf",

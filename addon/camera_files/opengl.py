@@ -20,7 +20,7 @@ from ..scene import Camera, SceneError, ViewWindow
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import ASPECT, MIRRORED, PARALLEL, SHEARED, SHIFT
-from .json_files import bodies, has, refuse_lens, view_of, written
+from .json_files import bodies, has, of_frame, refuse_lens, written
 
 _FORMULA = (
     "clip = projection view (X, 1); (clip0 / clip3, clip1 / clip3) is from -1 to 1 in the picture, "
@@ -66,10 +66,6 @@ def projection(camera: Camera) -> Floats:
     return out
 
 
-def _is_of(source: Source) -> bool:
-    return has(source, "projection", "view")
-
-
 def _read(source: Source) -> list[View]:
     return [_view(source.json | body, where, source) for body, where in bodies(source.json)]
 
@@ -85,34 +81,29 @@ def _view(body: Content, where: str, source: Source) -> View:
     if p[0, other] or p[1, other] or p[1, 0] or p[2, 0] or p[2, 1] or not p[0, 0] * p[1, 1]:
         raise SceneError(f"{where}projection is not of the form that glFrustum or glOrtho makes")
     # x on the window is X / -Z, or X: where the projection has -1 and 1 are its edges.
-    signed = np.sign((p[0, 0], p[1, 1]))
-    a = np.abs((p[0, 0], p[1, 1]))
+    ends = np.diag(p)[:2]
+    a = np.abs(ends)
     middle = -p[:2, 3] if parallel else p[:2, 2]
     low, high = (middle - 1) / a, (middle + 1) / a
-    plain = np.diag((*signed, 1.0, 1.0))
+    plain = np.diag((*np.sign(ends), 1.0, 1.0))
     plain[0, 1] = p[0, 1] / a[0]
-    size = source.whole_size(body, ("width", "height"), where)
-    camera = frame.seen_from(
+    view = frame.seen_from(
         world @ np.linalg.inv(plain),
         ViewWindow(low[0], high[0], low[1], high[1]),
-        size,
-        _clip(p, parallel, where),
+        source.whole_size(body, where),
         str(body.get("name", "")),
         ORTHOGRAPHIC if parallel else PERSPECTIVE,
+        _clip(p, parallel, where),
     )
-    return view_of(body, camera)
+    return of_frame(body, view)
 
 
 def _clip(p: Floats, parallel: bool, where: str) -> tuple[float, float]:
     """Return the depths that a projection has at -1 and 1."""
-    c, d = (float(v) for v in p[2, 2:])
-    with np.errstate(all="ignore"):
-        if parallel:
-            near, far = (np.float64(d + 1) / c, np.float64(d - 1) / c)
-        else:
-            near, far = np.float64(d) / (c - 1), np.float64(d) / (c + 1)
+    c, d = p[2, 2:]
+    near, far = ((d + 1) / c, (d - 1) / c) if parallel else (d / (c - 1), d / (c + 1))
     if c == -1 and not parallel:
-        far = np.float64(np.inf)
+        far = np.inf
     if not near < far:
         raise SceneError(
             f"{where}projection has its near plane at {near:g} and its far plane at {far:g}: "
@@ -128,6 +119,6 @@ OPENGL = Convention(
     frozenset((SHIFT, ASPECT, PARALLEL, MIRRORED, SHEARED)),
     False,
     _write,
-    _is_of,
+    lambda source: has(source, "projection", "view"),
     _read,
 )

@@ -97,7 +97,7 @@ def certify(camera: Camera, points: Floats, film: Floats) -> CameraCertificate:
     allowed = _allowed(camera, points, depth)
     worst = int(np.argmax(np.where(np.isfinite(distance), distance / allowed, np.inf)))
     largest = float(np.nan_to_num(distance[worst], nan=np.finfo(float).max))
-    return CameraCertificate(min(largest, np.finfo(float).max), float(allowed[worst]), len(depth))
+    return CameraCertificate(largest, float(allowed[worst]), len(depth))
 
 
 def _allowed(camera: Camera, points: Array, depth: Array) -> Floats:

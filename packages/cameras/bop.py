@@ -89,7 +89,7 @@ def _read(source: Source) -> list[View]:
             found = Source(folder / CAMERA).json
             camera = found if isinstance(found, dict) else {}
             break
-    size = own.whole_size(camera, ("width", "height"), f"{CAMERA}: ")
+    size = own.whole_size(camera, f"{CAMERA}: ")
     center = first_center(camera)
     every: Content = own.json
     return [_view(number, part(every, number, "", dict), center, size) for number in every]
@@ -105,8 +105,7 @@ def _view(number: str, body: Content, center: float, size: tuple[int, int]) -> V
     rotation = flat(body, "cam_R_w2c", where, 9).reshape(3, 3)
     pose = frame.pose(rotation, flat(body, "cam_t_w2c", where, 3) / _MILLIMETRES)
     name = f"{int(number):06d}.png" if number.isdigit() else number
-    camera = frame.pinhole(k, pose, size, None, name, center=center)
-    return View(camera, name, is_clipped=False)
+    return frame.pinhole(k, pose, size, name, center=center)
 
 
 BOP = Convention(

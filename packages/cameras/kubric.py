@@ -43,15 +43,13 @@ def _read(source: Source) -> list[View]:
     for number, (place, turn) in enumerate(zip(places, turns, strict=True)):
         pose = frame.inverse(frame.pose(rotation(turn), place))
         name = f"rgba_{number:05d}.png"
-        camera = frame.pinhole(k, pose, (width, height), None, name, np.eye(4))
-        found.append(View(camera, name, is_clipped=False))
+        found.append(frame.pinhole(k, pose, (width, height), name, np.eye(4)))
     return found
 
 
 def _size(metadata: Content, source: Source) -> tuple[int, int]:
     if "resolution" not in metadata:
-        width, height = source.whole_size({}, ("width", "height"))
-        return int(width), int(height)
+        return source.whole_size({})
     width, height = numbers(metadata, "resolution", "metadata.", (2,))
     return int(width), int(height)
 

@@ -61,10 +61,9 @@ def _view(path: Path, source: Source) -> View:
         raise SceneError(f"{path.name}: {error}") from None
     if len(pose) != 16 or len(k) != 9:
         raise SceneError(f"{path.name}: it must have 16 numbers of a pose and 9 of K")
-    size = source.whole_size({}, ("width", "height"))
+    size = source.whole_size({})
     name = f"{path.name.removesuffix(ENDING)}.png"
-    camera = frame.pinhole(k.reshape(3, 3), pose.reshape(4, 4), size, None, name)
-    return View(camera, name, is_clipped=False)
+    return frame.pinhole(k.reshape(3, 3), pose.reshape(4, 4), size, name)
 
 
 MVSNET = Convention(

@@ -69,10 +69,9 @@ def _view(body: Content, where: str, source: Source) -> View:
     lens: Content = part(body, "intrinsic", where, dict)
     k = flat(lens, "intrinsic_matrix", f"{where}intrinsic.", 9).reshape(3, 3).T
     pose = flat(body, "extrinsic", where, 16).reshape(4, 4).T
-    size = source.whole_size(lens, ("width", "height"), f"{where}intrinsic.")
+    size = source.whole_size(lens, f"{where}intrinsic.")
     name = str(body.get("name", ""))
-    camera = frame.pinhole(k, pose, size, None, name, center=first_center(body))
-    return View(camera, name, is_clipped=False)
+    return frame.pinhole(k, pose, size, name, center=first_center(body))
 
 
 OPEN3D = Convention(

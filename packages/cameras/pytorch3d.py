@@ -83,8 +83,7 @@ def _read(source: Source) -> list[View]:
         pose = frame.pose(rotation.T, place)
         k: Floats = frame.matrix_of(*map(float, (*lens, *point)))
         pixels = int(width), int(height)
-        camera = frame.pinhole(k, pose, pixels, None, name, frame.LEFT_UP, projection)
-        found.append(View(camera, name, is_clipped=False))
+        found.append(frame.pinhole(k, pose, pixels, name, frame.LEFT_UP, projection))
     return found
 
 

@@ -14,7 +14,7 @@ from reference_tracer.camera_files import frame
 from reference_tracer.camera_files.convention import Convention, Files, Source, View
 from reference_tracer.camera_files.features import ASPECT
 from reference_tracer.camera_files.json_files import dumped, flat
-from reference_tracer.files.checked_json import Content, numbers, objects
+from reference_tracer.files.checked_json import Content, number, numbers, objects
 
 _LIST = "cameras"  # what messages call the list, which has no name in the file
 
@@ -50,14 +50,13 @@ def _read(source: Source) -> list[View]:
 
 
 def _view(body: Content, where: str, source: Source) -> View:
-    width, height = source.whole_size(body, ("width", "height"), where)
-    fx, fy = (float(numbers(body, key, where, ())) for key in ("fx", "fy"))
+    width, height = source.whole_size(body, where)
+    fx, fy = (number(body, key, where) for key in ("fx", "fy"))
     k = frame.matrix_of(fx, fy, width / 2, height / 2)
     rotation = numbers(body, "rotation", where, (3, 3))
     pose = frame.pose(rotation, flat(body, "position", where, 3))
     name = str(body.get("img_name", ""))
-    camera = frame.pinhole(k, frame.inverse(pose), (width, height), None, name)
-    return View(camera, name, is_clipped=False)
+    return frame.pinhole(k, frame.inverse(pose), (width, height), name)
 
 
 SPLATTING = Convention(

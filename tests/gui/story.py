@@ -178,7 +178,7 @@ def result(kind="COMPARISON"):
 
 
 def compared():
-    return result() is not None
+    return result().content is not None
 
 
 def invoke(name, **options):

@@ -55,33 +55,26 @@ def lost_files(mode: str, frame: int) -> Iterator[Lost]:
 
 def _of_blocks(frame: int) -> Iterator[Lost]:
     for font in bpy.data.fonts:
-        if font.filepath != "<builtin>" and _is_lost(font):
-            yield Lost(font, "file", font.filepath, f"font '{font.name}'")
+        if font.filepath != "<builtin>":
+            yield from _lost(font, "font")
     for image in bpy.data.images:
         if image.source in ("FILE", "SEQUENCE", "MOVIE", "TILED"):
-            pattern = image.filepath if image.source != "SEQUENCE" else _any_frame(image.filepath)
-            if _is_lost(image, pattern):
-                yield Lost(image, "file", image.filepath, f"image '{image.name}'")
+            yield from _lost(image, "image", image.source == "SEQUENCE")
     for cache in bpy.data.cache_files:
         shown = cache.frame if cache.override_frame else frame
-        pattern = _of_frame(cache.filepath, int(shown)) if cache.is_sequence else cache.filepath
-        if _is_lost(cache, pattern):
-            yield Lost(cache, "file", pattern, f"cache '{cache.name}'")
+        path = _of_frame(cache.filepath, int(shown)) if cache.is_sequence else cache.filepath
+        if path and not exists(cache, path):
+            yield Lost(cache, "file", path, f"cache '{cache.name}'")
     for volume in bpy.data.volumes:
-        pattern = _any_frame(volume.filepath) if volume.is_sequence else volume.filepath
-        if _is_lost(volume, pattern):
-            yield Lost(volume, "file", volume.filepath, f"volume '{volume.name}'")
+        yield from _lost(volume, "volume", volume.is_sequence)
 
 
-def _is_lost(block: Any, pattern: str | None = None) -> bool:
-    """Return whether a data-block's file is neither packed nor there."""
-    path = block.filepath if pattern is None else pattern
-    packed = getattr(block, "packed_file", None) or getattr(block, "packed_files", ())
-    return bool(path) and not packed and not exists(block, path)
-
-
-def _any_frame(path: str) -> str:
-    return _NUMBER.sub("*", path, count=1)
+def _lost(block: Any, kind: str, is_sequence: bool = False) -> Iterator[Lost]:
+    """Yield a data-block's file if it is neither packed nor there, of a sequence in any frame."""
+    path = _NUMBER.sub("*", block.filepath, count=1) if is_sequence else block.filepath
+    packed = block.packed_file or getattr(block, "packed_files", ())
+    if path and not packed and not exists(block, path):
+        yield Lost(block, "file", block.filepath, f"{kind} '{block.name}'")
 
 
 def _of_frame(path: str, frame: int) -> str:
