@@ -121,7 +121,6 @@ def described(error: BaseException, path: Path) -> dict[str, Any]:
         SyntaxError: "syntax",
         SystemExit: "exit",
         MemoryError: "memory",
-        RecursionError: "exception",
     }
     kind = next((kinds[c] for c in type(error).__mro__ if c in kinds), "exception")
     try:

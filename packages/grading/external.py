@@ -111,8 +111,9 @@ class Program(Submission):
                 text = error.message + of_limit * (error.kind == "time")
                 raise StudentError(error.kind, text) from error
             finally:
-                self._left -= time.monotonic() - began
-                self.seconds += time.monotonic() - began
+                took = time.monotonic() - began
+                self._left -= took
+                self.seconds += took
                 self._keep(err, *(() if by_pipe else (out,)))
             most = most_bytes(self.form, len(rays))
             if by_pipe:

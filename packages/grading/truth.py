@@ -66,16 +66,16 @@ def bounded(program: Program, letters: Letters) -> Named:
 
 def _hits(program: Program, letters: Letters, names: Named) -> tuple[Bools, Bools]:
     """Return where all conditions hold, and where that is in doubt, in the letters' shape."""
-    hit, certain = np.isfinite(names["t"].value), np.ones(letters.shape, bool)
-    missed = np.zeros(letters.shape, bool)  # for certain
+    hit = np.isfinite(names["t"].value)
+    missed, unsure = np.zeros((2, *letters.shape), bool)  # missed for certain
     for left, comparison, limit in program.conditions:
         found = evaluate(left, names)
         holds = COMPARISONS[comparison](found.value, CONSTANTS[limit])
         far = np.abs(found.value - CONSTANTS[limit]) > ROUNDINGS * U * found.error
         missed |= ~holds & far
-        certain &= far
+        unsure |= ~far
         hit = hit & holds
-    unsure = ~certain & ~missed
+    unsure &= ~missed
     for where in np.argwhere(unsure):
         hit[tuple(where)] = exact_hit(program, letters, tuple(where))
     return hit, unsure
