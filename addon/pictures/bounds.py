@@ -61,7 +61,7 @@ def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
 def most_view_error(scene: Scene) -> Floats:
     """Return what :func:`view_error` is at most on each of the k instances, (k,) metres."""
     eye, reach = np.abs(scene.camera.origin).sum(), reaches(scene).sum(axis=0)
-    return np.asarray(U32 * (_MODEL * reach + _VIEW * (reach + eye)), np.float64)
+    return U32 * (_MODEL * reach + _VIEW * (reach + eye))
 
 
 def corner_errors(
