@@ -117,7 +117,7 @@ def test_what_the_file_of_a_scene_lacks_counts_in_the_verdict(tmp_path, monkeypa
     """Also once it is exported: what a .npz's source lacked, a comparison of it knows."""
     monkeypatch.chdir(tmp_path)
     Path("curve.obj").write_text(TRIANGLE + "curv 0 1 1 2\n", encoding="utf-8")
-    scene, manifest = open_scene(Path("curve.obj"))
+    scene, manifest, _ = open_scene(Path("curve.obj"))
     assert manifest.lacks
     color = render(scene).color
     save_scene("kept.npz", scene, manifest)

@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Floats
 from ..files.checked_json import ENDLESS, Content, number, numbers, objects
 from ..scene import Camera, SceneError
-from .convention import CENTERS, FIRST, HALF, Files, Source, View
+from .convention import CENTERS, FIRST, Files, Source, View
 
 CENTERS_KEY = "pixel_centers"
 _DISTORTIONS = (  # by the names of OpenCV, and of those who use its lenses
@@ -44,10 +44,15 @@ def first_center(content: Mapping[str, Any]) -> float:
     SceneError
         If it names neither.
     """
-    named = content.get(CENTERS_KEY, HALF)
-    if named not in CENTERS:
-        raise SceneError(f"{CENTERS_KEY} is {named!r}; it must be {' or '.join(CENTERS)}")
-    return FIRST[named]
+    return FIRST[one_of(content, CENTERS_KEY, "", CENTERS)]
+
+
+def one_of(content: Mapping[str, Any], key: str, where: str, known: Sequence[str]) -> str:
+    """Return one of some words that a key may have, the first where it is not there."""
+    word = content.get(key, known[0])
+    if word not in known:
+        raise SceneError(f"{where}{key} is {word!r}; it must be {' or '.join(known)}")
+    return str(word)
 
 
 def offset_of(centers: str) -> float:

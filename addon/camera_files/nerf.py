@@ -118,14 +118,15 @@ def _focal_lengths(body: Content, where: str, size: tuple[int, int]) -> tuple[fl
     for axis, n in zip("xy", size, strict=True):
         if f"{axis}_fov" in body:
             angle = np.radians(number(body, f"{axis}_fov", where))
-            found.append(n / 2 / float(np.tan(angle / 2)))
         elif f"fl_{axis}" in body:
             found.append(number(body, f"fl_{axis}", where))
+            continue
         elif f"camera_angle_{axis}" in body:
             angle = radians_of(body, f"camera_angle_{axis}", where)
-            found.append(n / 2 / float(np.tan(angle / 2)))
         else:
             found.append(0.0)
+            continue
+        found.append(n / 2 / float(np.tan(angle / 2)))
     x, y = found
     if not (x or y):
         raise SceneError(f"{where}fl_x and camera_angle_x are missing: it says no focal length")

@@ -81,11 +81,11 @@ def _view(body: Content, where: str, source: Source) -> View:
     if p[0, other] or p[1, other] or p[1, 0] or p[2, 0] or p[2, 1] or not p[0, 0] * p[1, 1]:
         raise SceneError(f"{where}projection is not of the form that glFrustum or glOrtho makes")
     # x on the window is X / -Z, or X: where the projection has -1 and 1 are its edges.
-    signed = np.sign((p[0, 0], p[1, 1]))
-    a = np.abs((p[0, 0], p[1, 1]))
+    ends = np.diag(p)[:2]
+    a = np.abs(ends)
     middle = -p[:2, 3] if parallel else p[:2, 2]
     low, high = (middle - 1) / a, (middle + 1) / a
-    plain = np.diag((*signed, 1.0, 1.0))
+    plain = np.diag((*np.sign(ends), 1.0, 1.0))
     plain[0, 1] = p[0, 1] / a[0]
     view = frame.seen_from(
         world @ np.linalg.inv(plain),
@@ -100,14 +100,10 @@ def _view(body: Content, where: str, source: Source) -> View:
 
 def _clip(p: Floats, parallel: bool, where: str) -> tuple[float, float]:
     """Return the depths that a projection has at -1 and 1."""
-    c, d = (float(v) for v in p[2, 2:])
-    with np.errstate(all="ignore"):
-        if parallel:
-            near, far = (np.float64(d + 1) / c, np.float64(d - 1) / c)
-        else:
-            near, far = np.float64(d) / (c - 1), np.float64(d) / (c + 1)
+    c, d = p[2, 2:]
+    near, far = ((d + 1) / c, (d - 1) / c) if parallel else (d / (c - 1), d / (c + 1))
     if c == -1 and not parallel:
-        far = np.float64(np.inf)
+        far = np.inf
     if not near < far:
         raise SceneError(
             f"{where}projection has its near plane at {near:g} and its far plane at {far:g}: "

@@ -58,7 +58,7 @@ class Counts:
     def to_dict(self) -> dict[str, object]:
         """Return them as JSON can hold them; what is not known is left out."""
         known = {name: value for name, value in asdict(self).items() if value is not None}
-        return {k: v._asdict() if isinstance(v, tuple) else v for k, v in known.items()}
+        return {k: v._asdict() if hasattr(v, "_asdict") else v for k, v in known.items()}
 
 
 class NotJudged(NamedTuple):

@@ -100,8 +100,8 @@ def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
                 names = zip(near[pairs.instance].tolist(), pairs.triangle.tolist(), strict=True)
                 found |= zip(names, np.moveaxis(pairs.corners, 2, 0), strict=True)
     corners = np.array(list(found.values())).reshape(-1, 3, 3)
-    every = np.array(list(found), np.int32).reshape(-1, 2)
-    return WorldTriangles(corners.transpose(1, 2, 0), *every.T)
+    named = np.array(list(found), np.int32).reshape(-1, 2)
+    return WorldTriangles(corners.transpose(1, 2, 0), *named.T)
 
 
 def _boxes(scene: Scene) -> Floats:

@@ -183,18 +183,20 @@ class Guessing:
         most: int,
     ) -> Work[list[Trial]]:
         """Try the guesses with the most gain, refining fitted ones."""
-        promising = PROMISING * max((gain for gain, _, _ in scored), default=0.0)
-        scored = sorted((one for one in scored if one[0] >= promising), key=lambda one: -one[0])
+        best = max((gain for gain, _, _ in scored), default=0.0)
         # Among equally good guesses try one of each fault first: a fault may have dozens.
         tried: Counter[str] = Counter()
-        ranks = [tried.update([fault.name]) or tried[fault.name] for _, fault, _ in scored]
-        best = scored[0][0] if scored else 0.0
-        cost = [len(g.low) if gain >= AS_GOOD * best else np.inf for gain, _, g in scored]
-        order = sorted(range(len(scored)), key=lambda n: (cost[n], -scored[n][0], ranks[n]))
+        ranked = []
+        for gain, fault, guess in sorted(scored, key=lambda one: -one[0]):
+            tried[fault.name] += 1
+            if gain >= PROMISING * best:
+                cost = len(guess.low) if gain >= AS_GOOD * best else np.inf
+                ranked.append((cost, -gain, tried[fault.name], fault, guess))
+        ranked.sort(key=lambda one: one[:3])
         out: list[Trial] = []
         done: dict[str, int] = {}  # faults with a guess that does it all, in so many numbers
-        for gain, fault, guess in (scored[n] for n in order[:most]):
-            worse = gain < AS_GOOD * best
+        for cost, _, _, fault, guess in ranked[:most]:
+            worse = cost == np.inf
             longer = not guess.object and len(guess.low) > min(done.values(), default=0)
             if fault.name in done or (done and (worse or longer)):
                 continue
@@ -244,11 +246,9 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
     trials = yield from guessing.trials(evidence, evidence)
     if best := _best(evidence, trials):
         return [best]
-    for first in (yield from _turned(guessing, evidence)):
-        seconds = yield from guessing.trials(carried(evidence, first), evidence)
-        if best := _best(evidence, seconds):
-            return [[first], best]
-    for trial in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
+    turned = yield from _turned(guessing, evidence)
+    likely = [t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)]
+    for trial in (*turned, *likely):
         first = yield from in_full(trial)
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
         own = first.guess.object  # two changes of one object are one that is not known
@@ -287,9 +287,8 @@ def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
             if other := fault.assume(case, guess):
                 traced = yield from traced_anew(other, case, frame)
                 if (yield from find_transform(traced, other.picture, ~boundary(traced))):
-                    if trial := (yield from trial_of(evidence, fault, guess, promising=True)):
-                        out.append((yield from in_full(trial)))
-    return out
+                    out.append((yield from trial_of(evidence, fault, guess, promising=True)))
+    return [trial for trial in out if trial]
 
 
 def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:

@@ -142,8 +142,7 @@ class ClassFolder:
         if isinstance(submission, Path):
             files = _with_imports(submission)
         else:
-            words = (part for word in submission.words for part in re.split(r"[\s=]", word))
-            named = [file for word in words if word for file in _files_in(Path(word))]
+            named = [file for path in submission.named for file in _files_in(path)]
             results = self._directory.resolve()  # may lie in such a folder
             files = [file for file in named if results not in file.resolve().parents]
         parts = [__version__, self._options, str(submission), str(bool(sandbox()))]
@@ -155,9 +154,8 @@ class ClassFolder:
 
 def _files_in(path: Path) -> list[Path]:
     """Return a file, or all files in a folder."""
-    if not path.is_dir():
-        return [path] if path.is_file() else []
-    return sorted(file for file in islice(path.rglob("*"), MOST_FILES) if file.is_file())
+    every = islice(path.rglob("*"), MOST_FILES) if path.is_dir() else (path,)
+    return sorted(file for file in every if file.is_file())
 
 
 def _with_imports(path: Path) -> list[Path]:

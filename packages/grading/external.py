@@ -36,10 +36,10 @@ class Run:
     exchange: str = "csv"  # one of EXCHANGES
 
     @property
-    def own(self) -> Path | None:
-        """The last file or folder that it names: what the program lies in; else None."""
-        parts = [part for word in self.words for part in re.split(r"[\s=]", word)]
-        return next((Path(part) for part in reversed(parts) if part and Path(part).exists()), None)
+    def named(self) -> list[Path]:
+        """The files and folders that it names."""
+        parts = (part for word in self.words for part in re.split(r"[\s=]", word))
+        return [Path(part) for part in parts if part and Path(part).exists()]
 
     @classmethod
     def parsed(cls, command: str, exchange: str = "csv") -> Run:

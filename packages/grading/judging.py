@@ -157,9 +157,12 @@ def _started(submission: Path | Run, form: Form, limits: Limits | None) -> Submi
 
 
 def names(submissions: Sequence[Path | Run]) -> list[str]:
-    """Return what a reader calls each: its file's or folder's name, or a command; none twice."""
-    paths = [s.own if isinstance(s, Run) else s for s in submissions]
-    files = iter(distinct([path for path in paths if path]))
+    """Return what a reader calls each: its file's or folder's name, or a command; none twice.
+
+    A program lies in the last file or folder that its command names.
+    """
+    paths = [s.named[-1:] if isinstance(s, Run) else [s] for s in submissions]
+    files = iter(distinct([path for each in paths for path in each]))
     every = [
         printable(each.command) if isinstance(each, Run) and not path else next(files)
         for each, path in zip(submissions, paths, strict=True)

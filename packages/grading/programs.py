@@ -191,8 +191,8 @@ def chosen(choice: str, t: Floats, hit: Mask) -> dict[str, Floats]:
 
 @np.errstate(all="ignore")
 def unit(vectors: Floats) -> Floats:
-    """Return vectors (n, 3) with a length of 1."""
-    out: Floats = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    """Return vectors (..., 3) with a length of 1."""
+    out: Floats = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
     return out
 
 

@@ -21,7 +21,7 @@ from typing import IO
 import numpy as np
 from reference_tracer.arrays import Floats
 from reference_tracer_processes.running import KEPT, Limits, how, kill
-from reference_tracer_processes.sandbox import kept_in
+from reference_tracer_processes.sandbox import kept_in, limited
 
 from .form import Form
 from .student_error import StudentError, parsed
@@ -76,8 +76,7 @@ class Student(Submission):
         own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
         own |= {"PYTHONHASHSEED": "0", "PYTHONIOENCODING": "utf-8", "PYTHONDONTWRITEBYTECODE": "1"}
         own["PYTHONUNBUFFERED"] = "1"  # what is printed is there when it is ended
-        memory = str(self.limits.memory)
-        words = [sys.executable, "-P", str(_CHILD), str(self.path), memory, self.form.to_json()]
+        words = [sys.executable, "-P", str(_CHILD), str(self.path), self.form.to_json()]
         libraries = Path(sys.base_prefix), Path(sys.prefix), Path(np.__file__).parents[1]
         process = subprocess.Popen(
             kept_in(words, None, own, self.path.parent, libraries),
@@ -87,6 +86,7 @@ class Student(Submission):
             cwd=self.path.parent,
             env=os.environ | own,
             start_new_session=True,  # Ctrl-C is for this process, which ends that one
+            **limited(self.limits.memory),
         )
         self._runs(process)
         self._reader = threading.Thread(target=self._listen, args=(process.stderr,))

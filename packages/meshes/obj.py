@@ -51,11 +51,9 @@ class _Reading:
         self.corners: list[bytes] = []  # indices of vertices, from 1
         self.sizes: list[int] = []  # of the faces
         self.face_lines: list[int] = []
-        # By the key of its line, the numbers of names, and the one that each face is of.
-        self.names = {key: {stem: 0} for key in (b"o", b"g")}
-        self.current = {b"o": 0, b"g": 0}
-        self.owners: dict[bytes, list[int]] = {b"o": [], b"g": []}
-        self.times = Counter[str]()  # that an object was begun
+        # Of objects and groups, how many faces were there before each, and its name.
+        self.begun = {key: [(0, stem)] for key in (b"o", b"g")}
+        self.stem = stem
         self.weights = 0
         self.other: Counter[bytes] = Counter()
 
@@ -67,18 +65,22 @@ class _Reading:
                 self._vertex(line, words)
             elif key == b"f":
                 self._face(line, words[1:])
-            elif key in self.names:
-                self._begin(key, b" ".join(words[1:]).decode("utf-8", "replace"))
+            elif key in self.begun:
+                name = b" ".join(words[1:]).decode("utf-8", "replace") or self.stem
+                self.begun[key].append((len(self.sizes), name))
             elif key not in _NO_SHAPE:
                 self.other[key] += 1
-        by = b"o" if self.times else b"g"
+        objects, groups = self.begun.values()
+        starts, named = zip(*(objects if len(objects) > 1 else groups), strict=True)
+        names = {name: number for number, name in enumerate(dict.fromkeys(named))}
+        faces = np.diff([*starts, len(self.sizes)])
         threes = [3] * len(self.vertex_lines)
         return of_faces(
             in_lines(floats, self.numbers, threes, self.vertex_lines).reshape(-1, 3),
             self._indices(),
             np.array(self.sizes, np.intp),
-            list(self.names[by]),
-            np.array(self.owners[by], np.intp),
+            list(names),
+            np.repeat([names[name] for name in named], faces),
             tuple(self._notes()),
             tuple(self._missing()),
         )
@@ -103,15 +105,6 @@ class _Reading:
         self.corners += corners
         self.sizes.append(len(corners))
         self.face_lines.append(line)
-        for key, owners in self.owners.items():
-            owners.append(self.current[key])
-
-    def _begin(self, key: bytes, name: str) -> None:
-        """Make the next faces those of a name, which may have been there before."""
-        names = self.names[key]
-        self.current[key] = names.setdefault(name, len(names)) if name else 0
-        if key == b"o":
-            self.times[name] += 1
 
     def _indices(self) -> Index:
         """Return the corners' indices, from 0."""
@@ -135,7 +128,8 @@ class _Reading:
         if self.weights:
             said = count_of(self.weights, "vertex has a weight", "vertices have weights")
             yield f"{said} other than 1, which polygons do not use"
-        if again := [f"'{name}'" for name, times in self.times.items() if times > 1]:
+        times = Counter(name for _, name in self.begun[b"o"][1:])
+        if again := [f"'{name}'" for name, count in times.items() if count > 1]:
             yield f"objects that have the same name are taken as one: {', '.join(again[:3])}"
 
     def _missing(self) -> Iterator[str]:

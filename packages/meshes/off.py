@@ -50,19 +50,14 @@ def read(path: Path) -> Contents:
     points = in_lines(floats, coordinates, threes, [n for n, _ in vertices]).reshape(-1, 3)
     numbers = [n for n, _ in faces]
     sizes = in_lines(integers, [own[0] for _, own in faces], [1] * face_count, numbers)
-    corners = [own[1 : 1 + size] for (_, own), size in zip(faces, sizes.tolist(), strict=True)]
-    if short := [
-        n for n, own, size in zip(numbers, corners, sizes, strict=True) if len(own) != size
-    ]:
+    sized = [(n, own[1:], size) for (n, own), size in zip(faces, sizes.tolist(), strict=True)]
+    if short := [n for n, own, size in sized if not 0 <= size <= len(own)]:
         raise SceneError(f"line {short[0]} has fewer corners than it says: {AGAIN}")
-    words = [word for own in corners for word in own]
+    words = [word for _, own, size in sized for word in own[:size]]
     more = sum(1 for _ in lines)
     allowed = _more_of_vertex(*kind.groups()[:3])
     odd = sum(len(own) - 3 not in allowed for _, own in vertices)
-    colored = sum(
-        len(own) - 1 - size not in _MORE_OF_FACE
-        for (_, own), size in zip(faces, sizes.tolist(), strict=True)
-    )
+    colored = sum(len(own) - size not in _MORE_OF_FACE for _, own, size in sized)
     said = {
         f"{count_of(odd, 'vertex has', 'vertices have')} other numbers than {kind[0].decode()} "
         "names: three are read": odd,
@@ -91,7 +86,7 @@ def _more_of_vertex(*parts: bytes | None) -> set[int]:
 
 def _counts(line: int, words: list[bytes]) -> list[int]:
     """Return how many vertices and faces there should be."""
-    found: list[int] = in_lines(integers, words[:2], [2], [line]).tolist()
+    found: list[int] = in_lines(integers, words[:2], [2], [line]).tolist()  # below 2^62
     if len(found) < 2 or min(found) < 0:
         raise SceneError(f"line {line} should say how many vertices and faces there are: {AGAIN}")
-    return [min(count, 2**40) for count in found]
+    return found

@@ -18,7 +18,7 @@ from reference_tracer.wording import printable
 from .sandbox import kept_in, limited
 
 SECONDS = 60.0
-MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
+MEMORY = 2 << 30  # bytes of data
 KEPT = 4000  # bytes of what a program prints
 
 

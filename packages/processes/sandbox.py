@@ -141,7 +141,7 @@ def limited(memory: int) -> dict[str, Any]:
             (resource.RLIMIT_FSIZE, _LARGEST_FILE),
             (resource.RLIMIT_CORE, 0),
         ):
-            with suppress(ValueError, OSError):
+            with suppress(ValueError, OSError, OverflowError):
                 resource.setrlimit(kind, (most, most))
 
     return {"preexec_fn": limit}  # beside a thread it may import nothing and take no lock

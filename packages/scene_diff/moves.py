@@ -86,7 +86,7 @@ def move_between(first: Floats, second: Floats, tolerance: float) -> Move | None
         found = matched(move.of(first), second, MARGIN * tolerance)
         if (found.same > 0).all():
             return move
-        if turned is None and (found.same + found.turned > 0).all():
+        if turned is None and found.there.all():
             turned = move
     return turned
 

@@ -66,7 +66,7 @@ def _export_viewport():
 
 def _export_render():
     with temporary_scene(bpy.context.scene, bpy.context.view_layer.name) as copy:
-        return export_for_render(copy)[:2]
+        return export_for_render(copy)
 
 
 @pytest.fixture

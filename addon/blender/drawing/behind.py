@@ -57,7 +57,7 @@ def behind(
         shown, manifest = with_what_draws_itself(drawn.drawing, shown, identity)
     except (SceneError, RuntimeError):  # nothing is left that could be seen
         return None
-    rest = Case(drawn.scene, manifest, case.settings, shown, tracer=case.tracer)
+    rest = Case(drawn.drawing.exported, manifest, case.settings, shown, tracer=case.tracer)
     return Behind(rest, frozenset(u.object for u in left))
 
 

@@ -17,6 +17,7 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
+from ...manifest import Manifest
 from ...pictures.certificate import CameraCertificate
 from ...pictures.palette import VIEWPORT, By
 from ...pictures.picture import Picture
@@ -35,9 +36,9 @@ from ..drawing.judge import Judge
 from ..drawing.judges import judge_or_none
 from ..drawing.rasteriser import snapping_of
 from ..drawing.shading import of_shading, solid_shading
-from ..evaluating import export_at, export_certified
+from ..evaluating import export_at
 from ..paths import made_folder
-from ..reading.camera import export_camera
+from ..reading.camera import certify_camera, export_camera
 from ..reading.export import export
 from ..reading.palettes import automatic, noted, palette_by
 from ..reading.unmodelled import by_handlers
@@ -76,7 +77,7 @@ def gather_case(context: Context, **choices: Any) -> Case:
     there = _names(user)
     is_automatic = plan.like_for_like and chosen.colors == By.AUTOMATIC
     exporting = _Export(plan, is_automatic)
-    drawing, scene, pixels, owners = plan.drawn(exporting, chosen.identity)
+    drawing, pixels, owners = plan.drawn(exporting, chosen.identity)
     made = partial(_picture, judge=judge, used=exporting.used, snapping=snapping)
     shown = replace(made(pixels), owners=owners)
     later = _a_frame_later(drawing) if chosen.self_check else None
@@ -84,7 +85,7 @@ def gather_case(context: Context, **choices: Any) -> Case:
     if there != _names(user):
         manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(user)))
     case = Case(
-        scene,
+        drawing.exported,
         manifest,
         # Like for like, Blender's picture has one sample in a pixel: so has the traced one.
         replace(chosen.settings, samples=1) if plan.like_for_like else chosen.settings,
@@ -125,7 +126,8 @@ class _Export:
     def __call__(self, tmp: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
         plan = self._plan
         meshes: dict[Any, Any] = {}
-        scene, manifest, self.certificate = export_certified(depsgraph, meshes)
+        scene, manifest = export(depsgraph, meshes)
+        self.certificate = certify_camera(depsgraph, scene.camera)
         if self._is_automatic:
             plan = replace(plan, palette=automatic(plan.scene, scene, manifest))
         palette = plan.palette
@@ -138,10 +140,8 @@ class _Export:
         manifest = noted(palette, scene, manifest)
         if self.certificate:
             self.certificate.check()
-        if plan.like_for_like and used["color_type"] == "RANDOM":
-            plan.judge.check_random(scene, manifest.owners)
         if plan.like_for_like:
-            _check_colors(plan.judge, scene, used["color_type"], tmp)
+            _check_colors(plan.judge, scene, manifest, used["color_type"], tmp)
         else:
             of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
             of_scene = (replace(u, object=f"scene '{plan.scene.name}'") for u in of_picture)
@@ -149,8 +149,12 @@ class _Export:
         return Drawing.of(plan, scene, manifest)
 
 
-def _check_colors(judge: Judge, scene: Scene, color_type: str, tmp: Any) -> None:
+def _check_colors(
+    judge: Judge, scene: Scene, manifest: Manifest, color_type: str, tmp: Any
+) -> None:
     """Refuse what a judge would not show in the colours that the tracer has."""
+    if color_type == "RANDOM":
+        judge.check_random(scene, manifest.owners)
     if not judge.solid:
         check_slots(scene, color_type)
     if judge.check_colors:

@@ -88,7 +88,8 @@ def _rendered(drawing: Drawing, judge: Judge, like_for_like: bool, making: Makin
             judge.check_random(drawing.exported, drawing.manifest.owners)
         return own
 
-    _, scene, pixels, _ = own.drawn(export, identity=False)
+    rendered, pixels, _ = own.drawn(export, identity=False)
+    scene = rendered.exported
     shown = picture_of_array(pixels, scene.camera, making)
     source = Source(
         judge.name,

@@ -100,9 +100,9 @@ def _moves(looked: Looked) -> Floats:
     return looked.axes()[:, : 2 if parallel else 3]
 
 
-def _unseen_moves(looked: Looked) -> Floats | None:
+def _unseen_moves(looked: Looked) -> Floats:
     seen = _moves(looked).shape[1]
-    return looked.axes()[:, seen:] if seen < 3 else None
+    return looked.axes()[:, seen:]
 
 
 def _places(looked: Looked) -> Iterable[Values]:

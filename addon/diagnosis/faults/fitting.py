@@ -76,8 +76,8 @@ class Family:
     """Cameras that differ in a few numbers."""
 
     camera: Callable[..., Camera | None]
-    # Changes of the numbers that move the film by about a pixel: (m, k) columns, or of each, (m,).
-    axes: Callable[[Evidence], Floats | Values]
+    # Changes of the numbers that move the film by about a pixel, (m, k) columns.
+    axes: Callable[[Evidence], Floats]
     words: Callable[..., str] = lambda camera, *numbers: ""
     # Numbers that are looked up where edges moved too far to be found.
     starts: Callable[[Evidence], Iterator[Values]] = lambda evidence: iter(())
@@ -86,11 +86,6 @@ class Family:
     # Changes of the numbers, (m, j) columns, that change nothing in the picture.
     unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
 
-    def columns(self, evidence: Evidence) -> Floats:
-        """Return the axes as columns, (m, k)."""
-        axes = np.asarray(self.axes(evidence))
-        return np.diag(axes) if axes.ndim == 1 else axes
-
     def matched(self, evidence: Evidence) -> Fitted | None:
         """Return the numbers, in units, with which the edges are where the picture has them."""
         return evidence.once(f"matched {id(self)}", lambda: self._matched(evidence, evidence))
@@ -98,14 +93,15 @@ class Family:
     def followed(self, evidence: Evidence) -> Work[Fitted | None]:
         """Return the same, found again in what is traced there: far away, much looks otherwise.
 
-        Only where it has many numbers, and explains some edges (cached).
+        Only where it has many numbers, and explains some edges.
         """
-        key, found = f"followed {id(self)}", self.matched(evidence)
-        axes, scene = self.columns(evidence), evidence.case.scene
-        if key not in evidence.known and found and len(axes) > ENCLOSED:
-            for _ in range(FOLLOWED if found.share >= FOUND / 2 else 0):
+        found, axes, scene = self.matched(evidence), self.axes(evidence), evidence.case.scene
+        if found and found.share >= FOUND / 2 and len(axes) > ENCLOSED:
+            for _ in range(FOLLOWED):
                 camera = self.camera(scene.camera, *axes @ found.units)
-                frame = Frame.empty(scene if camera is None else scene.seen_by(camera))
+                if camera is None:
+                    break
+                frame = Frame.empty(scene.seen_by(camera))
                 yield from steps(frame.scene, evidence.case.settings, frame)
                 case = evidence.case.in_scene(frame.scene)
                 there = replace(evidence, case=case, frame=frame, known={})
@@ -113,13 +109,12 @@ class Family:
                 if again is None or again.share <= found.share:
                     break
                 found = again
-            evidence.known[key] = found
-        return evidence.known.get(key, found)
+        return found
 
     def _matched(
         self, evidence: Evidence, there: Evidence, units: Floats | float = 0.0
     ) -> Fitted | None:
-        axes = self.columns(evidence)
+        axes = self.axes(evidence)
         own = evidence.case.scene.camera
         found = matches(there)
 
@@ -138,7 +133,7 @@ def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
 
     def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         fine = bool(guess.low)
-        axes, known = family.columns(evidence), len(guess.values) <= ENCLOSED
+        axes, known = family.axes(evidence), len(guess.values) <= ENCLOSED
         reach = FINE_REACH if fine else REACH
         if not known:
             evidence = replace(evidence, size=min(evidence.size, FITTED))
@@ -181,7 +176,7 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
 
     Where as many edges are explained by no change, they moved by less than a pixel, or not at all.
     """
-    axes, own = family.columns(evidence), evidence.case.scene.camera
+    axes, own = family.axes(evidence), evidence.case.scene.camera
     none = (0.0,) * len(axes)
     if family.camera(own, *none) is None:
         return []

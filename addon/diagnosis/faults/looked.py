@@ -42,10 +42,7 @@ class Looked:
     def of(cls, evidence: Evidence, name: str, kept: bool = False) -> Work[Looked | None]:
         """Gather what is known of an object (cached); None if it can settle few pixels."""
         key = f"looked {name} {kept} {evidence.size} {evidence.fine}"
-        if key not in evidence.known:
-            evidence.known[key] = yield from cls._of(evidence, name, kept)
-        found: Looked | None = evidence.known[key]
-        return found
+        return (yield from evidence.done_once(key, cls._of(evidence, name, kept)))
 
     @classmethod
     def _of(cls, evidence: Evidence, name: str, kept: bool) -> Work[Looked | None]:

@@ -43,8 +43,8 @@ class Search:
     ----------
     right : callable
         Which of n pixels are right with m numbers.
-    axes : (m, k) or (m,) float
-        What a unit, about a pixel, along each of k axes adds to the numbers; or of each alone.
+    axes : (m, k) float
+        What a unit, about a pixel, along each of k axes adds to the numbers.
     finest : float
         Units: the last step.
     least : float
@@ -58,15 +58,14 @@ class Search:
     def __init__(
         self,
         right: Right,
-        axes: Sequence[float] | Floats,
+        axes: Floats,
         finest: float = FINEST,
         least: float = 0,
         unseen: Floats | None = None,
         moves: float = np.inf,
     ) -> None:
-        axes = np.asarray(axes, np.float64)
         self._right = right
-        self.axes = np.diag(axes) if axes.ndim == 1 else axes
+        self.axes = axes
         self.unseen = np.zeros((len(self.axes), 0)) if unseen is None else unseen
         self.finest = finest
         self.least = least

@@ -75,12 +75,11 @@ def _gamma(color: Array) -> Array:
 
 def _curve_of(evidence: Evidence) -> Work[Curve | None]:
     """Return the transform that makes most unexplained surfaces agree (cached)."""
-    picture = evidence.picture
-    if "curve" not in evidence.known and picture.transform is None and not picture.lit:
-        more = evidence.case.curves or ()
-        found = yield from find_transform(evidence.frame, picture, inside(evidence), more)
-        evidence.known["curve"] = found
-    return evidence.known.get("curve")
+    picture, more = evidence.picture, evidence.case.curves or ()
+    if picture.transform is not None or picture.lit:
+        return None
+    finding = find_transform(evidence.frame, picture, inside(evidence), more)
+    return (yield from evidence.done_once("curve", finding))
 
 
 def _rounded(evidence: Evidence) -> Sequence[Curve]:

@@ -80,7 +80,7 @@ def _found(
         found = yield from right(depth)
         if found is not None and found.sum() >= evidence.least_right():
             starts.append(depth)
-    search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right())
+    search = Search(right, np.eye(1) * np.ptp(t) / STEPS, least=evidence.least_right())
     if starts and (guess := (yield from search.guess(starts))):
         beyond = "nearer" if sign < 0 else "farther"
         words = f"at {guess.values[0]:.4g} m: what is {beyond} is not shown"

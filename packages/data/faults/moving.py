@@ -14,7 +14,8 @@ import numpy as np
 from reference_tracer.arrays import Floats, Places
 from reference_tracer.diagnosis.evidence import Evidence, spread
 from reference_tracer.diagnosis.faults.changes import MOVED
-from reference_tracer.diagnosis.faults.fault import Numbers, instances_named
+from reference_tracer.diagnosis.faults.fault import instances_named
+from reference_tracer.diagnosis.faults.pose import Posed
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import Work
@@ -33,7 +34,7 @@ _OWN = (1.0, 0.9, 0.75)
 _DONE = 2.0**-26  # metres, per metre of the points' distance: float32 knows no nearer place
 
 
-def by_points(evidence: Evidence) -> Work[list[Numbers]]:
+def by_points(evidence: Evidence) -> Work[list[Posed]]:
     """Guess where each object that is seen in unexplained pixels is, from their depths."""
     data = data_of(evidence)
     if data.kind.name not in KINDS:
@@ -48,7 +49,7 @@ def by_points(evidence: Evidence) -> Work[list[Numbers]]:
                 by = yield from _registered(evidence, data, name, at, share)
                 if by is not None:
                     values = tuple(np.round(by, 9).tolist())  # a nanometre
-                    out.append(Numbers(values, values, values, object=name))
+                    out.append(Posed(values, values, values, object=name))
     return out
 
 

@@ -76,10 +76,11 @@ def letters(
     """
     half = np.arctan(sensor / (2 * lens))
     axes = np.broadcast_to(np.eye(3)[:, :, None], (3, 3, len(pixels)))
-    numbers = {
-        **dict(zip(("column", "row"), pixels.T, strict=True)),
-        **dict(zip(("columns", "rows"), resolutions.T, strict=True)),
-        **dict(zip(("shift_x", "shift_y"), shifts.T, strict=True)),
+    pairs = "column row columns rows shift_x shift_y".split()
+    names = "right up back e row_x row_y row_z axis_x axis_y axis_z".split()
+    of_matrix = matrices.transpose(2, 1, 0), matrices[:, :, :3].transpose(1, 2, 0)
+    values = {
+        **dict(zip(pairs, np.hstack((pixels, resolutions, shifts)).T, strict=True)),
         "longer": resolutions.max(axis=1),
         "shorter": resolutions.min(axis=1),
         "perspective": 1 - orthographic,
@@ -89,15 +90,9 @@ def letters(
         "scale": scale,
         "half_degrees": np.degrees(half),
         "whole_angle": 2 * half,
+        **dict(zip(names, np.concatenate((*of_matrix, axes)), strict=True)),
     }
-    vectors = {
-        **dict(zip(("right", "up", "back", "e"), matrices.transpose(2, 1, 0), strict=True)),
-        **dict(
-            zip(("row_x", "row_y", "row_z"), matrices[:, :, :3].transpose(1, 2, 0), strict=True)
-        ),
-        **dict(zip(("axis_x", "axis_y", "axis_z"), axes, strict=True)),
-    }
-    return Letters(numbers | vectors, (len(pixels),))
+    return Letters(values, (len(pixels),))
 
 
 def rows(directions: Floats, origins: Floats) -> Floats:

@@ -10,7 +10,7 @@ from reference_tracer.arrays import Floats
 
 from ..cases import TableCases
 from ..form import Field, Form
-from ..programs import Letters, Part, Program, Slip
+from ..programs import Letters, Part, Program, Slip, unit
 from .subject import Subject, side_by_side
 from .triangle import CORNERS, FORMULAS, RAYS
 from .triangle import TEXTBOOK as TRIANGLE_TEST
@@ -153,11 +153,8 @@ def _scenes(rng: np.random.Generator, name: str) -> tuple[Floats, ...]:
 
 def _triangles(rng: np.random.Generator, direction: Floats) -> Floats:
     """Return triangles (n, k, 3, 3) about the origin that face a direction (n, 3), or turn away."""
-    axis = direction / np.linalg.norm(direction, axis=1, keepdims=True)
-    normal = axis[:, None] + 0.4 * rng.normal(size=(EACH, OBJECTS, 3))
-    normal /= np.linalg.norm(normal, axis=2, keepdims=True)
-    first = np.cross(normal, rng.normal(size=normal.shape))
-    first /= np.linalg.norm(first, axis=2, keepdims=True)
+    normal = unit(unit(direction)[:, None] + 0.4 * rng.normal(size=(EACH, OBJECTS, 3)))
+    first = unit(np.cross(normal, rng.normal(size=normal.shape)))
     second = np.cross(normal, first) * rng.choice((-1, 1), (EACH, OBJECTS, 1))
     angles = 2 * np.pi * (np.arange(3) / 3 + rng.uniform(-0.1, 0.1, (EACH, OBJECTS, 3)))
     across = np.cos(angles)[..., None] * first[:, :, None]

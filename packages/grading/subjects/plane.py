@@ -8,7 +8,7 @@ from reference_tracer.derivation.formulas import PLANE as LISTED
 
 from ..cases import TableCases
 from ..form import Field, Form
-from ..programs import Letters, Part, Program, Slip
+from ..programs import Letters, Part, Program, Slip, unit
 from .subject import Subject
 from .triangle import RAYS
 
@@ -89,15 +89,13 @@ Planes = tuple[Floats, Floats, Floats, Floats]  # origins, directions, points, n
 
 def _towards(rng: np.random.Generator, slant: float) -> Planes:
     """Return rays towards planes that their normals point to; a large slant makes them graze."""
-    unit = rng.normal(size=(EACH, 3))
-    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
-    along = np.cross(unit, rng.normal(size=(EACH, 3)))
-    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    n = unit(rng.normal(size=(EACH, 3)))
+    along = unit(np.cross(n, rng.normal(size=(EACH, 3))))
     length, speed, size = 2.0 ** rng.uniform(-2, 2, (3, EACH, 1))
     point = rng.normal(size=(EACH, 3)) * 3
-    away = (unit + slant * along) / max(1.0, slant)
-    inside = np.cross(unit, rng.normal(size=(EACH, 3)))
-    return point + length * away, -speed * away, point + inside, size * unit
+    away = (n + slant * along) / max(1.0, slant)
+    inside = np.cross(n, rng.normal(size=(EACH, 3)))
+    return point + length * away, -speed * away, point + inside, size * n
 
 
 def _whole(rng: np.random.Generator) -> Planes:

@@ -7,8 +7,12 @@ without its back faces.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from reference_tracer.arrays import Floats
+
+from ..programs import Mask, unit
 
 SEED = 20240611
 EACH = 400  # pairs of a group
@@ -37,16 +41,29 @@ def groups(seed: int = SEED) -> dict[str, Pairs]:
     }
 
 
-def _triangles(rng: np.random.Generator) -> Floats:
-    """Return triangles of an ordinary shape, (EACH, 3, 3)."""
+def normals(p: Floats) -> Floats:
+    """Return the normals of triangles (n, 3, 3), (n, 3)."""
+    return np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+
+
+def _drawn(draw: Callable[[], Floats], wanted: Callable[[Floats], Mask]) -> Floats:
+    """Return the first EACH triangles that are wanted, (EACH, 3, 3)."""
     out = np.zeros((0, 3, 3))
     while len(out) < EACH:
-        p = rng.normal(size=(EACH, 3, 3))
-        n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-        longest = np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2).max(axis=1)
-        high = np.linalg.norm(n, axis=1) > 0.3 * longest**2
-        out = np.concatenate((out, p[high & (longest > 0.5)]))
+        some = draw()
+        out = np.concatenate((out, some[wanted(some)]))
     return out[:EACH]
+
+
+def _triangles(rng: np.random.Generator) -> Floats:
+    """Return triangles of an ordinary shape, (EACH, 3, 3)."""
+
+    def ordinary(p: Floats) -> Mask:
+        longest = np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2).max(axis=1)
+        high = np.linalg.norm(normals(p), axis=1) > 0.3 * longest**2
+        return high & (longest > 0.5)
+
+    return _drawn(lambda: rng.normal(size=(EACH, 3, 3)), ordinary)
 
 
 def _powers(base: float, exponents: Floats) -> Floats:
@@ -56,12 +73,8 @@ def _powers(base: float, exponents: Floats) -> Floats:
 
 def _towards(rng: np.random.Generator, p: Floats, s: Floats) -> Pairs:
     """Return rays towards points of triangles' planes, from the front, at no small angle."""
-    n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-    n /= np.linalg.norm(n, axis=1, keepdims=True)
-    away = rng.normal(size=n.shape)
-    away /= np.linalg.norm(away, axis=1, keepdims=True)
-    away = n + 0.6 * away
-    length, speed = rng.uniform(2, 6, (len(n), 1)), _powers(2, rng.uniform(-2, 2, (len(n), 1)))
+    away = unit(normals(p)) + 0.6 * unit(rng.normal(size=(len(p), 3)))
+    length, speed = rng.uniform(2, 6, (len(p), 1)), _powers(2, rng.uniform(-2, 2, (len(p), 1)))
     point = (s[:, :, None] * p).sum(axis=1)
     return point + length * away, -speed * away, p
 
@@ -133,16 +146,13 @@ def _scaled(front: Pairs) -> Pairs:
 
 def _parallel(rng: np.random.Generator) -> Pairs:
     """Return rays along the plane of a triangle of integers, beside it, over its middle."""
-    p = np.zeros((0, 3, 3))
-    while len(p) < EACH:
-        some = rng.integers(-9, 10, (EACH, 3, 3)).astype(float)
-        n = np.cross(some[:, 1] - some[:, 0], some[:, 2] - some[:, 0])
-        p = np.concatenate((p, some[np.abs(n).sum(axis=1) > 20]))
-    p = p[:EACH]
+    p = _drawn(
+        lambda: rng.integers(-9, 10, (EACH, 3, 3)).astype(float),
+        lambda some: np.abs(normals(some)).sum(axis=1) > 20,
+    )
     e, f = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
     d = rng.integers(1, 4, (EACH, 1)) * e + rng.integers(-3, 4, (EACH, 1)) * f
-    n = np.cross(e, f)
-    return p[:, 0] - 2 * d + np.sign(n), d, p
+    return p[:, 0] - 2 * d + np.sign(normals(p)), d, p
 
 
 def _empty(rng: np.random.Generator) -> Pairs:

@@ -16,6 +16,7 @@ import numpy as np
 from ..group_faults import FEW, FLOAT32, LOSSY, MOST, Found, Tests, always, never, single
 from ..mutations import mutations
 from ..programs import Mask
+from .triangle_cases import normals
 
 if TYPE_CHECKING:
     from ..cases import TableAnswers
@@ -43,8 +44,7 @@ def sum_equals_one(a: TableAnswers) -> Found:
     seen = np.ones(len(a.hit), bool)
     if a.hit[a.cases.among("back")].mean() < FEW:
         _, directions, p = a.cases.given
-        n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-        seen = (n * directions).sum(axis=1) < 0
+        seen = (normals(p) * directions).sum(axis=1) < 0
     lost = (~a.hit)[seen & a.cases.among("front", "back")].mean()
     if RANDOM[0] < lost < RANDOM[1] and a.hit[seen & a.cases.among("whole")].mean() > 1 - FEW / 10:
         text = (
