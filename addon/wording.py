@@ -23,6 +23,11 @@ def listed(names: Sequence[str], most: int) -> str:
     return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
 
 
+def capital(text: str) -> str:
+    """Return a text with a capital as its first letter; the others stay."""
+    return text[:1].upper() + text[1:]
+
+
 def printable(text: str, but: str = "\n\t") -> str:
     """Return text that is safe to show: what steers a terminal, or is no letter, is spelt out."""
     return "".join(

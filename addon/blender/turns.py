@@ -16,6 +16,11 @@ T = TypeVar("T")
 Turns: TypeAlias = Generator[bool, Any, T]
 
 
+def once(of: Callable[[Any], T]) -> Turns[T]:
+    """Return what a function makes of the evaluation; nothing is drawn."""
+    return of((yield False))
+
+
 class InTurns(Generic[T]):
     """Work that is done in turns with Blender.
 

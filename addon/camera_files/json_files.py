@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Floats
 from ..files.checked_json import ENDLESS, Content, number, numbers, objects
 from ..scene import Camera, SceneError
-from .convention import CENTERS, FIRST, HALF, Files, Source, View
+from .convention import CENTERS, FIRST, Clip, Files, Source, View
 
 CENTERS_KEY = "pixel_centers"
 _DISTORTIONS = (  # by the names of OpenCV, and of those who use its lenses
@@ -44,10 +44,15 @@ def first_center(content: Mapping[str, Any]) -> float:
     SceneError
         If it names neither.
     """
-    named = content.get(CENTERS_KEY, HALF)
-    if named not in CENTERS:
-        raise SceneError(f"{CENTERS_KEY} is {named!r}; it must be {' or '.join(CENTERS)}")
-    return FIRST[named]
+    return FIRST[one_of(content, CENTERS_KEY, "", CENTERS)]
+
+
+def one_of(content: Mapping[str, Any], key: str, where: str, known: Sequence[str]) -> str:
+    """Return one of some words that a key may have, the first where it is not there."""
+    word = content.get(key, known[0])
+    if word not in known:
+        raise SceneError(f"{where}{key} is {word!r}; it must be {' or '.join(known)}")
+    return str(word)
 
 
 def offset_of(centers: str) -> float:
@@ -55,7 +60,7 @@ def offset_of(centers: str) -> float:
     return FIRST[centers] - 0.5
 
 
-def clip_of(content: Content, where: str) -> tuple[float, float] | None:
+def clip_of(content: Content, where: str) -> Clip | None:
     """Return the clip range that an object says; None if it says none."""
     if content.keys().isdisjoint(("clip_start", "clip_end")):
         return None
@@ -71,8 +76,8 @@ def clip_end(camera: Camera) -> float | str:
 
 def has(source: Source, *keys: str) -> bool:
     """Return whether a JSON object, or the first of its list `frames`, has these keys."""
-    content = source.json
-    if isinstance(content, dict) and isinstance(many := content.get("frames"), list):
+    content: Any = source.object
+    if isinstance(many := content.get("frames"), list):
         content = many[0] if many else None
     return isinstance(content, dict) and content.keys() >= {*keys}
 
@@ -103,7 +108,7 @@ def _is_any(value: Any) -> bool:
 
 def bodies(content: Content) -> list[tuple[Content, str]]:
     """Return the objects of the list `frames`, or the whole one, each as messages call it."""
-    return objects(content, "frames") if "frames" in content else [(content, "")]
+    return list(objects(content, "frames")) if "frames" in content else [(content, "")]
 
 
 def written(head: Content, views: Sequence[View], body: Callable[[View], Content]) -> Files:

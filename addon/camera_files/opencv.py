@@ -17,7 +17,7 @@ import numpy as np
 
 from ..files.checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS
-from ..scene import Camera, SceneError
+from ..scene import Camera
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import ASPECT, MIRRORED, SHIFT
@@ -31,6 +31,7 @@ from .json_files import (
     has,
     of_frame,
     offset_of,
+    one_of,
     refuse_lens,
     written,
 )
@@ -72,7 +73,7 @@ def body_of(camera: Camera, offset: float = 0.0) -> Content:
 
 
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     center = first_center(content)
     return [_view(content | body, where, center, source) for body, where in bodies(content)]
 
@@ -81,9 +82,9 @@ def _view(body: Content, where: str, center: float, source: Source) -> View:
     refuse_lens(body, where)
     k = numbers(body, "K", where, (3, 3))
     matrix = frame.pose(numbers(body, "R", where, (3, 3)), flat(body, "t", where, 3))
-    if _named(body, "up", where, ("z", "y")) == "y":
+    if one_of(body, "up", where, ("z", "y")) == "y":
         matrix = matrix @ frame.Y_UP_FROM_Z_UP
-    kind = _named(body, "projection", where, (PERSPECTIVE.name, ORTHOGRAPHIC.name))
+    kind = one_of(body, "projection", where, (PERSPECTIVE.name, ORTHOGRAPHIC.name))
     view = frame.pinhole(
         k,
         matrix,
@@ -96,19 +97,11 @@ def _view(body: Content, where: str, center: float, source: Source) -> View:
     return of_frame(body, view)
 
 
-def _named(body: Content, key: str, where: str, known: Sequence[str]) -> str:
-    """Return one of some words that a key may have, the first where it is not there."""
-    word = body.get(key, known[0])
-    if word not in known:
-        raise SceneError(f"{where}{key} is {word!r}; it must be {' or '.join(known)}")
-    return str(word)
-
-
 OPENCV = Convention(
     "opencv",
     "OpenCV",
     "camera.json",
-    frozenset((SHIFT, ASPECT, MIRRORED)),
+    (SHIFT, ASPECT, MIRRORED),
     True,
     _write,
     lambda source: has(source, "K", "R", "t"),

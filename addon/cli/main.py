@@ -11,8 +11,9 @@ from collections.abc import Sequence
 
 from .. import __version__
 from ..tracer import signals
+from ..wording import capital
 from . import running
-from .commands import COMMANDS
+from .commands import COMMANDS, module
 from .parser import EXIT_CODES_HELP, Parser
 from .watch import watched
 
@@ -56,7 +57,7 @@ def parser(argv: Sequence[str]) -> Parser:
     asked = next((word for word in argv if not word.startswith("-")), None)
     for name, command in COMMANDS.items():
         text = command.help
-        own = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+        own = commands.add_parser(name, help=text, description=f"{capital(text)}.")
         if name == asked:
             _add_options(own, name)
     return out
@@ -70,15 +71,14 @@ def _add_options(own: Parser, name: str) -> None:
         if found.name == name:
             found.load().add(own)
             return
-    module = COMMANDS[name].module
-    if module is None:
+    if not COMMANDS[name].is_own:
         from ..scene import SceneError
 
         raise SceneError(
             f"the command {name} is not part of the add-on: pip install --editable . in a clone "
             "of the project installs it"
         )
-    module().add(own)
+    module(name).add(own)
     for found in entry_points(group="reference_tracer.options"):
         found.load()(own, name)
 

@@ -99,10 +99,9 @@ def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
             if pairs is not None:
                 names = zip(near[pairs.instance].tolist(), pairs.triangle.tolist(), strict=True)
                 found |= zip(names, np.moveaxis(pairs.corners, 2, 0), strict=True)
-    if not found:
-        return WorldTriangles.none()
-    instance, triangle = np.array(list(found), np.int32).T
-    return WorldTriangles(np.stack(list(found.values()), axis=2), instance, triangle)
+    corners = np.array(list(found.values())).reshape(-1, 3, 3)
+    named = np.array(list(found), np.int32).reshape(-1, 2)
+    return WorldTriangles(corners.transpose(1, 2, 0), *named.T)
 
 
 def _boxes(scene: Scene) -> Floats:

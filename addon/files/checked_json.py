@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -43,13 +43,12 @@ def read(path: Path, schema: str, no_such: str, of: Callable[[Content], T]) -> T
         raise SceneError(f"'{path}': {error}") from error
 
 
-def objects(content: Content, key: str) -> list[tuple[Content, str]]:
-    """Return the objects of a list, each with its place as messages have it."""
-    items: list[Any] = part(content, key, "", list)
-    for number, item in enumerate(items):
+def objects(content: Content, key: str) -> Iterator[tuple[Content, str]]:
+    """Yield the objects of a list, each with its place as messages have it."""
+    for number, item in enumerate(part(content, key, "", list)):
         if not isinstance(item, dict):
             raise SceneError(f"{key}[{number}] must be an object in braces")
-    return [(item, f"{key}[{number}].") for number, item in enumerate(items)]
+        yield item, f"{key}[{number}]."
 
 
 def camera_of(c: Content) -> Camera:

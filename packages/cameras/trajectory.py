@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.camera_files.frame import rotation_vector
+from reference_tracer.camera_files.frame import rotation_of, rotation_vector
 from reference_tracer.scene import Camera
 from reference_tracer.tracer.camera import film_of
 
@@ -45,8 +45,7 @@ class Similarity:
         scale: it is 1.
         """
         axes, others = (np.array([c.world_from_camera[:3, :3] for c in cs]) for cs in (own, other))
-        u, _, v = np.linalg.svd(np.einsum("nij,nkj->ik", others, axes))
-        rotation = u @ np.diag((1.0, 1.0, np.linalg.det(u @ v))) @ v
+        rotation = rotation_of(np.einsum("nij,nkj->ik", others, axes))
         places, moved = (np.array([c.origin for c in cs]) for cs in (own, other))
         turned = places @ rotation.T
         spread = turned - turned.mean(axis=0)

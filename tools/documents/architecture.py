@@ -49,7 +49,7 @@ blender/ui/long_work.py LongWork.invoke
       blender/jobs/compare.py compare_open_file
         blender/jobs/compare.py gather_case
           blender/jobs/compare.py _Export
-            blender/evaluating.py export_certified
+            blender/reading/export.py export
           blender/drawing/drawings.py Plan.drawn
             blender/drawing/drawings.py Plan._drawn
               blender/drawing/drawings.py _turns

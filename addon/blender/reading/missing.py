@@ -55,14 +55,11 @@ def missing(
     if not (named or bpy.data.libraries or bpy.app.autoexec_fail):
         return  # it takes time to find out what uses what
     users = bpy.data.user_map()
-    lost = [*_placeholders(users), *named]
-    if not (lost or bpy.app.autoexec_fail):
-        return
     flag = "show_render" if mode == "RENDER" else "show_viewport"
     reached = _reached(users, _first(drawn, layer, mode, shown), flag)
-    lost = [thing for thing in lost if thing.block in reached]
-    if drawn.display.shading.color_type not in _OF_MATERIALS:
-        lost = [thing for thing in lost if thing.block.id_type != "MATERIAL"]
+    unseen = "" if drawn.display.shading.color_type in _OF_MATERIALS else "MATERIAL"
+    every = (*_placeholders(users), *named)
+    lost = [t for t in every if t.block in reached and t.block.id_type != unseen]
     yield from _told(lost, users, reached, flag)
     if bpy.app.autoexec_fail:
         yield from _drivers(reached)

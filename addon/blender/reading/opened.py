@@ -32,26 +32,18 @@ def open_file(path: Path) -> None:
         If it cannot be opened, with Blender's reason. What was open before then still is.
     """
     said: list[str] = []
-    with _heard() as loaded, _reports_shown():
-        try:
-            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
-        except RuntimeError as error:
-            if not loaded:
-                raise
-            said = [line.removeprefix("Error: ").strip() for line in str(error).splitlines()]
-    _reports.clear()
-    _reports[bpy.data.filepath] = tuple(line for line in said if line)
-
-
-@contextmanager
-def _reports_shown() -> Iterator[None]:
-    """Print on standard error what Blender reports by Python, once it has opened a file."""
-    printed = StringIO()
+    printed = StringIO()  # what Blender reports by Python, which is no result of ours
     try:
-        with redirect_stdout(printed):
-            yield
+        with _heard() as loaded, redirect_stdout(printed):
+            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+    except RuntimeError as error:
+        if not loaded:
+            raise
+        said = [line.removeprefix("Error: ").strip() for line in str(error).splitlines()]
     finally:
         show(*printed.getvalue().splitlines(), file=sys.stderr)
+    _reports.clear()
+    _reports[bpy.data.filepath] = tuple(line for line in said if line)
 
 
 @contextmanager

@@ -14,6 +14,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import IntProperty
 from bpy.types import Context, UILayout
 
+from ...wording import capital
 from . import blocks, results
 from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object, select_alone
 from .layout import wrapped
@@ -142,7 +143,7 @@ def draw_findings(layout: UILayout, context: Context, comparison: Comparison) ->
     before = comparison.scene.camera
     for number, told in enumerate(diagnosis.told):
         said = f"or, as likely, {told.sentence}" if told.alternative else told.sentence
-        wrapped(box, context, said[0].upper() + said[1:], "INFO")
+        wrapped(box, context, capital(said), "INFO")
         if not alike(before, told.frame.scene.camera):
             box.operator(REFERENCE_TRACER_OT_copy_camera.bl_idname).number = number
             if number == _copied_for(context):

@@ -11,7 +11,7 @@ from bpy.props import BoolProperty
 from bpy.types import Context
 
 from ...tracer.progress import Found, Work
-from ...wording import say
+from ...wording import capital, say
 from ..drawing.judges import OF_ONE_FRAME, STILLS
 from . import blocks, results
 from .areas import redraw
@@ -85,7 +85,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         say(*results.keep(Kind.ENGINES, tuple(result), lines, self.scene).lines)
         verdict = engines.worst(result)
         text = ", ".join(f"{row.engine}: {row.verdict}" for row in result)
-        return "INFO" if verdict == "agree" else "WARNING", text[0].upper() + text[1:]
+        return "INFO" if verdict == "agree" else "WARNING", capital(text)
 
 
 @named

@@ -73,12 +73,12 @@ class REFERENCE_TRACER_OT_show_image(bpy.types.Operator):
 def chosen(space: SpaceImageEditor) -> str | None:
     """Return which image of the comparison a space shows, as the switch names it, or None."""
     image = space.image if space.type == "IMAGE_EDITOR" else None
-    if image is None or image.get(blocks.MARK) not in IMAGES.values():
-        return None
-    if image.get(blocks.MARK) == blocks.TRACED:
-        manager: Any = bpy.context.window_manager
-        return "BOTH" if manager.reference_tracer.both else "TRACED"
-    return next(key for key, name in IMAGES.items() if name == image[blocks.MARK])
+    mark = image.get(blocks.MARK) if image else None
+    keys = [key for key, name in IMAGES.items() if name == mark]
+    manager: Any = bpy.context.window_manager
+    if manager.reference_tracer.both:
+        keys.reverse()
+    return next(iter(keys), None)
 
 
 def open_as_render(context: Context, image: Image) -> None:

@@ -23,8 +23,11 @@ Placed = Callable[[Any], Any]  # of an object, its other world matrix
 
 def variants(origin: Origin) -> Iterator[Variant]:
     """Yield the scene with every object in another place by the same mistake, then single ones."""
-    for fault, placed in WRONG.items():
-        yield from _misplaced(origin, fault, placed)
+    objects = origin.objects.items()
+    for fault, placed in OF_PARENT.items():
+        yield from _misplaced(origin, fault, {n: placed(o) for n, o in objects if o.parent})
+    without = {name: _without_delta(obj) for name, obj in objects}
+    yield from _misplaced(origin, "delta_left_out", without)
     yield from _instances(origin)
     yield from _without_offsets(origin)
 
@@ -43,33 +46,30 @@ def _without_delta(obj: Any) -> Matrix:
     return obj.matrix_world @ obj.matrix_basis.inverted_safe() @ own
 
 
-def without_scale(matrix: Matrix) -> Matrix:
+def _without_scale(matrix: Matrix) -> Matrix:
     """Return the place and the rotation of a matrix of Blender's, as it takes them apart."""
     place, rotation, _ = matrix.decompose()
     return Matrix.LocRotScale(place, rotation, None)
 
 
-def _of_parent(placed: Placed) -> Placed:
-    """Return another place of what has a parent; all else stays."""
-    return lambda obj: placed(obj) if obj.parent else obj.matrix_world
-
-
-# By their faults, mistakes about where objects are.
-WRONG: dict[str, Placed] = {
-    "parent_left_out": _of_parent(lambda o: o.matrix_basis),
-    "parent_inverse": _of_parent(lambda o: o.parent.matrix_world @ o.matrix_basis),
-    "parent_scale": _of_parent(
-        lambda o: without_scale(o.parent.matrix_world) @ o.matrix_parent_inverse @ o.matrix_basis
+# By their faults, mistakes about where what has a parent is.
+OF_PARENT: dict[str, Placed] = {
+    "parent_left_out": lambda o: o.matrix_basis,
+    "parent_inverse": lambda o: o.parent.matrix_world @ o.matrix_basis,
+    "parent_scale": lambda o: (
+        _without_scale(o.parent.matrix_world) @ o.matrix_parent_inverse @ o.matrix_basis
     ),
-    "delta_left_out": _without_delta,
 }
 
 
-def _misplaced(origin: Origin, fault: str, placed: Placed) -> Iterator[Variant]:
+def _misplaced(origin: Origin, fault: str, found: Mapping[str, Matrix]) -> Iterator[Variant]:
     """Yield the scene with objects in another place, where that is another than their own."""
-    found = {name: _world(placed(obj)) for name, obj in origin.objects.items()}
-    own = {name: _world(obj.matrix_world) for name, obj in origin.objects.items()}
-    wrong = {n: m for n, m in found.items() if not np.allclose(m, own[n], atol=NEAR)}
+    own = origin.objects
+    wrong = {
+        name: _world(matrix)
+        for name, matrix in found.items()
+        if not np.allclose(matrix, own[name].matrix_world, atol=NEAR)
+    }
 
     def made(names: Collection[str]) -> Scene:
         return _moved(origin, {name: wrong[name] for name in names}, are_at_home=True)[0]
