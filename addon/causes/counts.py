@@ -133,6 +133,4 @@ def _places(where: Bools) -> list[list[int]]:
     """Return some pixels, spread evenly over all, as [x, y] from the lower left."""
     found = np.flatnonzero(where)
     chosen = np.linspace(0, len(found) - 1, min(len(found), EXAMPLES)).astype(int)
-    y, x = np.divmod(found[chosen], where.shape[1])
-    named: list[list[int]] = np.column_stack((x, y)).tolist()
-    return named
+    return [[int(i % where.shape[1]), int(i // where.shape[1])] for i in found[chosen]]
