@@ -15,6 +15,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import at_once
 from reference_tracer.wording import listed
 
+from ..ids import ids_of
 from ..kind import Data, Turn
 from ..seen import Seen
 from .turned import Turned, data_fault, data_of, picture_of
@@ -46,8 +47,7 @@ def _turned(own: dict[str, float]) -> Turn:
     """Return what gives objects other ids."""
 
     def turn(made: Floats, seen: Seen) -> Floats:
-        table = np.array([own.get(name, np.nan) for name in seen.scene.objects])
-        new = table[seen.scene.instance_objects[seen.instance]][:, None]
+        new = ids_of(own, seen)
         return np.where(np.isnan(new), made, new)
 
     return turn
