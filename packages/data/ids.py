@@ -78,7 +78,6 @@ def owners_of(
     pairs, count = np.unique(np.stack((seen, value.reshape(-1))), axis=1, return_counts=True)
     own = dict(known or {})
     blank = np.zeros(len(ids), bool)
-    right = 0
     taken = {*np.flatnonzero(np.isin(values, [*own.values()])).tolist()}
     given = set(range(len(scene.objects))) if own else set()
     for number in np.argsort(-count, kind="stable"):
@@ -87,15 +86,13 @@ def owners_of(
             continue
         given.add(thing)
         taken.add(of)
-        right += int(count[number])
         if thing == NOTHING:
             blank = ids == values[of]
         else:
             own[scene.objects[thing]] = float(values[of])
-    if known:
-        table = np.array([*(own.get(name, np.nan) for name in scene.objects), np.nan])
-        right += int((ids == table[seen]).sum())
-    return own, blank, right
+    table = np.array([*(own.get(name, np.nan) for name in scene.objects), np.nan])
+    right = (ids == table[seen]) | (blank & (seen == NOTHING))
+    return own, blank, int(right.sum())
 
 
 def named(path: Path, values: Array, numbers: Floats, scene: Scene) -> dict[str, float]:
