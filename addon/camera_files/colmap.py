@@ -63,7 +63,7 @@ def rotation(q: Floats) -> Floats:
     SceneError
         If it is zero.
     """
-    length = float(np.linalg.norm(q))
+    length = np.linalg.norm(q)
     if not length:
         raise SceneError(f"{IMAGES}: a quaternion is zero")
     return frame.of_quaternion(*(q / length))

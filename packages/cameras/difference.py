@@ -88,7 +88,7 @@ def measured(own: Camera, other: Camera) -> CameraDifference:
     points = known_points(own)
     x, y, depth = film_of(own, points)
     far = apart((x, y, depth), film_of(other, points))
-    worst = int(np.argmax(far))
+    worst = np.argmax(far)
     return CameraDifference(
         float(far[worst]),
         float(np.median(far)),

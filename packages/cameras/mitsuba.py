@@ -156,16 +156,16 @@ def _half_tangent(own: Mapping[str, str], width: float, height: float) -> float:
         fov = _number(own, "fov")
         if not 0 < fov < 180:
             raise SceneError(f"its fov is {fov}, which must be between 0 and 180 degrees")
-        half = float(np.tan(np.radians(fov) / 2))
+        half = np.tan(np.radians(fov) / 2)
     else:  # of a film of 36 x 24 mm, along its diagonal
         axis = "diagonal"
         length = own.get("focal_length", "50mm").removesuffix("mm")
-        half = float(np.hypot(36, 24)) / 2 / float(_floats(length, 1, "focal_length")[0])
+        half = np.hypot(36, 24) / 2 / _floats(length, 1, "focal_length")[0]
     if axis == "smaller":
         axis = "y" if aspect > 1 else "x"
     elif axis == "larger":
         axis = "x" if aspect > 1 else "y"
-    factors = {"x": 1.0, "y": aspect, "diagonal": aspect / float(np.hypot(aspect, 1))}
+    factors = {"x": 1.0, "y": aspect, "diagonal": aspect / np.hypot(aspect, 1)}
     if axis not in factors:
         raise SceneError(f"its fov_axis is '{axis}', none of {', '.join(factors)}, smaller, larger")
     return half * factors[axis]

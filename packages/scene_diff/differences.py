@@ -118,7 +118,7 @@ def _alike(first: Plane, second: Plane) -> bool:
     """Return whether two planes are the same, with the same side in front."""
     size = float(max(np.abs(first.point).max(), np.abs(second.point).max()))
     n, m = (p.normal / np.sqrt((p.normal * p.normal).sum()) for p in (first, second))
-    off = abs(float(n @ (second.point - first.point)))
+    off = abs(n @ (second.point - first.point))
     return float(np.abs(n - m).max()) <= ROUNDINGS and off <= 2 * (ROUNDINGS * size + DIGITS)
 
 
