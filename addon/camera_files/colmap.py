@@ -145,7 +145,7 @@ def _camera(words: list[str], where: str) -> tuple[str, _Lens]:
             f"{where}: {model} has lens distortion, which is not modelled: "
             "`colmap image_undistorter` writes pictures and cameras without"
         )
-    k = frame.matrix_of(*(float(params[n]) for n in places))
+    k = frame.matrix_of(*params[[*places]])
     return words[0], (k, (int(values[0]), int(values[1])))
 
 

@@ -121,7 +121,7 @@ def _view(own: Content, label: str, name: str, world: Floats, source: Source) ->
         size,
         name,
         ORTHOGRAPHIC if parallel else PERSPECTIVE,
-        (_number(lens, label, "znear"), float(far)),
+        (_number(lens, label, "znear"), far),
     )
 
 

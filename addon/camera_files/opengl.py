@@ -100,7 +100,7 @@ def _clip(p: Floats, parallel: bool, where: str) -> Clip:
             f"{where}projection has its near plane at {near:g} and its far plane at {far:g}: "
             "depths from -1 to 1 are read, as OpenGL has them"
         )
-    return float(near), float(far)
+    return near, far
 
 
 OPENGL = Convention(

@@ -90,10 +90,10 @@ def measured(own: Camera, other: Camera) -> CameraDifference:
     far = apart((x, y, depth), film_of(other, points))
     worst = np.argmax(far)
     return CameraDifference(
-        float(far[worst]),
+        far[worst],
         float(np.median(far)),
-        (float(x[worst]), float(y[worst])),
-        float(depth[worst]),
+        (x[worst], y[worst]),
+        depth[worst],
         max(CLOSE, certify(own, points, np.stack((x, y))).allowed),
     )
 

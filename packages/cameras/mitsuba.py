@@ -121,12 +121,11 @@ def _view(sensor: ElementTree.Element) -> View:
         raise SceneError(f"its sensor is of the type '{kind}', none of {', '.join(_KINDS)}")
     own, pixels = _values(sensor), _values(sensor.iterfind("film/*"))
     # What Mitsuba takes where the file says none.
-    whole = tuple(_number(pixels, key, n) for key, n in (("width", 768), ("height", 576)))
+    width, height = _number(pixels, "width", 768), _number(pixels, "height", 576)
     left, top = (_number(pixels, f"crop_offset_{axis}", 0) for axis in "xy")
-    crop = _number(pixels, "crop_width", whole[0]), _number(pixels, "crop_height", whole[1])
-    if not all(n == int(n) and n >= 1 for n in (*whole, *crop)):
+    crop = _number(pixels, "crop_width", width), _number(pixels, "crop_height", height)
+    if not all(n == int(n) and n >= 1 for n in (width, height, *crop)):
         raise SceneError("its film's width and height must be integers of at least 1")
-    width, height = whole
     world: Floats = np.eye(4)
     for child in sensor:
         if child.tag == "animation":

@@ -80,10 +80,10 @@ class _Reading:
             in_lines(floats, self.numbers, threes, self.vertex_lines).reshape(-1, 3),
             self._indices(),
             np.array(self.sizes, np.intp),
-            list(names),
+            names,
             np.repeat([names[name] for name in named], faces),
-            tuple(self._notes()),
-            tuple(self._missing()),
+            self._notes(),
+            self._missing(),
         )
 
     def _vertex(self, line: int, words: list[bytes]) -> None:

@@ -228,7 +228,7 @@ def _of_object(
 
 def _turned_over(name: str, found: Matched) -> Iterator[Difference]:
     """Yield that triangles have their other side in front."""
-    turned = int(((found.same == 0) & (found.turned > 0)).sum())
+    turned = ((found.same == 0) & (found.turned > 0)).sum()
     if turned:
         count = len(found.same)
         which = "all normals" if turned == count else f"the normals of {turned:,} triangles"
@@ -243,7 +243,7 @@ def _of_triangles(name: str, own: Floats, other: Floats, tolerance: float) -> Di
             say = f"'{name}' has {counts}: as with {abs(level)} {'more' if level > 0 else 'fewer'}"
             return _of_fault("subdivision", name, f"{say} levels of subdivision")
     points = own.reshape(-1, 3), other.reshape(-1, 3)
-    same = int(matched(own, other, tolerance).there.sum())
+    same = matched(own, other, tolerance).there.sum()
     if len(other) < len(own) and same == len(other):
         return _of_fault(
             "triangles_missing", name, f"'{name}' lacks {len(own) - same:,} of its triangles"
