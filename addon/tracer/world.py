@@ -159,6 +159,13 @@ def world_triangles(
     return WorldTriangles(corners, np.repeat(batch.instances, each), triangle)
 
 
+def finite_triangles(scene: Scene) -> WorldTriangles:
+    """Return all triangles of a scene that are finite in world space, in float64."""
+    every = [world_triangles(scene, batch, np.float64) for batch in batches(scene)]
+    found = WorldTriangles.joined([WorldTriangles.none(), *every])
+    return found.take(np.flatnonzero(found.finite))
+
+
 def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
     """Return the corners of named triangles in world space, (corner, component, m) float64."""
     out = np.empty((3, 3, len(instance)))
@@ -183,9 +190,7 @@ def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
 
 def reaches(scene: Scene) -> Floats:
     """Bound the sums of |terms| of world_from_object . vertex, metres, (3, instances)."""
-    if not scene.instances:
-        return np.zeros((3, 0))
-    reach = np.abs([m.bounds for m in scene.meshes]).max(axis=1)[scene.instance_meshes].T
+    reach = np.abs(scene.instance_bounds).max(axis=0)
     m = scene.instance_matrices
     return (np.abs(m[:3, :3]) * reach).sum(axis=1) + np.abs(m[:3, 3])
 
@@ -196,11 +201,7 @@ def depth_ranges(scene: Scene) -> Floats:
     No vertex lies beyond, whatever has been rounded; NaN where a number overflows.
     """
     m, camera = scene.instance_matrices, scene.camera
-    if not scene.instances:
-        return np.zeros((2, 0))
-    low, high = np.array([mesh.bounds for mesh in scene.meshes])[scene.instance_meshes].T.swapaxes(
-        0, 1
-    )
+    low, high = scene.instance_bounds
     axis = dual_axes(camera)[2][:, None]
     with np.errstate(over="ignore", invalid="ignore"):
         row = (axis[..., None] * m[:3, :3]).sum(axis=0)  # of an axis of the object, by its length
