@@ -18,7 +18,7 @@ from .camera import dual_axes, project
 from .vector import Arrays, Vectors, gather, transform_points
 
 if TYPE_CHECKING:
-    from ..scene import Scene
+    from ..scene import Mesh, Scene
 
 BATCH = 1 << 14  # triangles in a batch, about: a few milliseconds of work, some MiB
 
@@ -169,23 +169,26 @@ def finite_triangles(scene: Scene) -> WorldTriangles:
 def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
     """Return the corners of named triangles in world space, (corner, component, m) float64."""
     out = np.empty((3, 3, len(instance)))
-    groups: list[Index | slice] = [slice(None)]
-    if len(instance) and (instance[0] != instance).any():
-        of = scene.instance_meshes[instance]
-        groups = [np.flatnonzero(of == mesh) for mesh in np.unique(of)]
     with np.errstate(over="ignore", invalid="ignore"):
-        for rows in groups:
+        for mesh, rows in by_mesh(scene, instance):
             own = instance[rows]
-            if not len(own):
-                continue
             one = bool((own == own[0]).all())
             matrices = scene.instance_matrices[..., own[:1] if one else own]
-            mesh = scene.meshes[scene.instances[own[0]].mesh]
             corners = mesh.triangles.take(triangle[rows], axis=0)
             for corner in range(3):
                 local = mesh.vertices.take(corners[:, corner], axis=0).T
                 out[corner][:, rows] = transform_points(matrices, local)
     return out
+
+
+def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Index | slice]]:
+    """Yield each mesh among instances (n,), which are no planes, with its rows of them."""
+    of = scene.instance_meshes[instance]
+    if len(of) and (of == of[0]).all():
+        yield scene.meshes[of[0]], slice(None)
+        return
+    for mesh in np.unique(of):
+        yield scene.meshes[mesh], np.flatnonzero(of == mesh)
 
 
 def reaches(scene: Scene) -> Floats:
