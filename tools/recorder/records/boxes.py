@@ -30,11 +30,14 @@ def _instance(v: Inputs, projection: Projection) -> Kept:
     own = film.of(v, projection, "place", "weight", "ray_error", "depth_error")
     own.camera.region = region(v)
 
+    def of_corners(name: str):
+        return v.vector(" ".join(f"{name}{n}" for n in range(8)))[:, 0]
+
     def enter(_, vertices, first, world) -> None:
         for name in ("p", "q", "w", "depth", "ahead"):
-            getattr(vertices, name)[:] = v.vector(" ".join(f"{name}{n}" for n in range(8)))[:, 0]
+            getattr(vertices, name)[:] = of_corners(name)
         for k, name in enumerate(_ENDS):
-            vertices.box[:, k] = v.vector(" ".join(f"{name}{n}" for n in range(8)))[:, 0]
+            vertices.box[:, k] = of_corners(name)
 
     with (
         film.python(boxes),
