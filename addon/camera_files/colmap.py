@@ -17,7 +17,7 @@ import numpy as np
 from ..arrays import Floats
 from ..scene import SceneError
 from . import frame
-from .convention import Convention, Files, Source, View
+from .convention import Convention, Files, Size, Source, View
 from .features import ASPECT, SHIFT
 
 CAMERAS, IMAGES, POINTS = "cameras.txt", "images.txt", "points3D.txt"
@@ -127,7 +127,7 @@ def _numbers(words: Sequence[str], where: str) -> Floats:
     return values
 
 
-_Lens = tuple[Floats, tuple[int, int]]
+_Lens = tuple[Floats, Size]
 
 
 def _camera(words: list[str], where: str) -> tuple[str, _Lens]:
@@ -165,7 +165,7 @@ COLMAP = Convention(
     "colmap",
     "COLMAP",
     f"{CAMERAS}, {IMAGES} and {POINTS} in a folder",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     False,
     _write,
     _is_of,

@@ -16,7 +16,7 @@ from ..arrays import Floats
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from ..scene import Camera, Region, SceneError, ViewWindow
 from ..tracer.camera import pixel_size
-from .convention import View
+from .convention import Clip, Size, View
 
 # Blender's and OpenGL's camera space has +Y up and -Z forward; OpenCV's has +Y down, +Z forward.
 # This takes one to the other, and back.
@@ -125,12 +125,12 @@ def inverse(matrix: Floats) -> Floats:
 def pinhole(
     k: Floats,
     camera_from_world: Floats,
-    size: tuple[int, int],
+    size: Size,
     name: str,
     axes: Floats = OPENCV,
     projection: Projection = PERSPECTIVE,
     center: float = 0.5,
-    clip: tuple[float, float] | None = None,
+    clip: Clip | None = None,
 ) -> View:
     """Return the view of K (3, 3) and a matrix (4, 4) into a camera space.
 
@@ -162,10 +162,10 @@ def pinhole(
 def seen_from(
     world_from_camera: Floats,
     window: ViewWindow,
-    size: tuple[int, int],
+    size: Size,
     name: str,
     projection: Projection,
-    clip: tuple[float, float] | None,
+    clip: Clip | None,
 ) -> View:
     """Return a view; a scale of its axes is taken into its window and clip range.
 

@@ -24,7 +24,7 @@ from ..framing import SIZE
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Files, Source, View
+from .convention import Convention, Files, Size, Source, View
 from .features import PARALLEL
 from .gltf_file import as_specified, item, open_gltf, read_tree
 from .json_files import dumped, radians_of
@@ -72,9 +72,7 @@ def camera_of(view: View) -> Content:
 def _is_of(source: Source) -> bool:
     if source.path.is_dir():
         return False
-    content = source.json
-    is_text = isinstance(content, dict) and "asset" in content
-    return is_text or source.path.read_bytes()[:4] == b"glTF"
+    return "asset" in source.object or source.path.read_bytes()[:4] == b"glTF"
 
 
 def _read(source: Source) -> list[View]:
@@ -134,7 +132,7 @@ def _number(lens: Content, label: str, key: str) -> float:
     return float(value)
 
 
-def _size(own: Content, label: str, aspect: float | None, source: Source) -> tuple[int, int]:
+def _size(own: Content, label: str, aspect: float | None, source: Source) -> Size:
     """Return the picture's size: of the extras, or the requested one, with the aspect ratio."""
     extras = own.get("extras")
     width, height = source.size
@@ -156,7 +154,7 @@ GLTF = Convention(
     "gltf",
     "glTF",
     "camera.gltf",
-    frozenset((PARALLEL,)),
+    (PARALLEL,),
     False,
     _write,
     _is_of,

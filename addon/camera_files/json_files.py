@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Floats
 from ..files.checked_json import ENDLESS, Content, number, numbers, objects
 from ..scene import Camera, SceneError
-from .convention import CENTERS, FIRST, Files, Source, View
+from .convention import CENTERS, FIRST, Clip, Files, Source, View
 
 CENTERS_KEY = "pixel_centers"
 _DISTORTIONS = (  # by the names of OpenCV, and of those who use its lenses
@@ -60,7 +60,7 @@ def offset_of(centers: str) -> float:
     return FIRST[centers] - 0.5
 
 
-def clip_of(content: Content, where: str) -> tuple[float, float] | None:
+def clip_of(content: Content, where: str) -> Clip | None:
     """Return the clip range that an object says; None if it says none."""
     if content.keys().isdisjoint(("clip_start", "clip_end")):
         return None
@@ -76,8 +76,8 @@ def clip_end(camera: Camera) -> float | str:
 
 def has(source: Source, *keys: str) -> bool:
     """Return whether a JSON object, or the first of its list `frames`, has these keys."""
-    content = source.json
-    if isinstance(content, dict) and isinstance(many := content.get("frames"), list):
+    content: Any = source.object
+    if isinstance(many := content.get("frames"), list):
         content = many[0] if many else None
     return isinstance(content, dict) and content.keys() >= {*keys}
 

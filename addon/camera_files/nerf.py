@@ -23,7 +23,7 @@ from ..files.checked_json import Content, number, numbers, objects
 from ..projections import PERSPECTIVE, PROJECTIONS
 from ..scene import SceneError
 from . import frame
-from .convention import HALF, Convention, Files, Source, View
+from .convention import HALF, Convention, Files, Size, Source, View
 from .features import ASPECT, SHIFT
 from .json_files import (
     CENTERS_KEY,
@@ -75,7 +75,7 @@ def _lens(view: View, offset: float) -> Content:
 
 
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     notes = [
         f"{key} is not undone: the world is the file's own"
         for key in ("applied_transform", "applied_scale")
@@ -112,7 +112,7 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     return replace(frame.pinhole(k, matrix, size, name, np.eye(4)), notes=notes)
 
 
-def _focal_lengths(body: Content, where: str, size: tuple[int, int]) -> tuple[float, float]:
+def _focal_lengths(body: Content, where: str, size: Size) -> tuple[float, float]:
     """Return both focal lengths in pixels; a missing one is equal to the other."""
     found = []
     for axis, n in zip("xy", size, strict=True):
@@ -137,7 +137,7 @@ NERF = Convention(
     "nerf",
     "NeRF (instant-ngp, nerfstudio)",
     "transforms.json",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     True,
     _write,
     lambda source: has(source, "transform_matrix"),

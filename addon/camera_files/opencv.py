@@ -73,7 +73,7 @@ def body_of(camera: Camera, offset: float = 0.0) -> Content:
 
 
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     center = first_center(content)
     return [_view(content | body, where, center, source) for body, where in bodies(content)]
 
@@ -101,7 +101,7 @@ OPENCV = Convention(
     "opencv",
     "OpenCV",
     "camera.json",
-    frozenset((SHIFT, ASPECT, MIRRORED)),
+    (SHIFT, ASPECT, MIRRORED),
     True,
     _write,
     lambda source: has(source, "K", "R", "t"),

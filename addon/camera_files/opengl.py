@@ -9,8 +9,6 @@ are no files of matrices: this JSON is ours, row by row.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ..arrays import Floats
@@ -18,7 +16,7 @@ from ..files.checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import Camera, SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Files, Source, View
+from .convention import Clip, Convention, Source, View
 from .features import ASPECT, MIRRORED, PARALLEL, SHEARED, SHIFT
 from .json_files import bodies, has, of_frame, refuse_lens, written
 
@@ -26,10 +24,6 @@ _FORMULA = (
     "clip = projection view (X, 1); (clip0 / clip3, clip1 / clip3) is from -1 to 1 in the picture, "
     "from the left and upwards"
 )
-
-
-def _write(views: Sequence[View], centers: str) -> Files:
-    return written({"convention": "opengl", "formula": _FORMULA}, views, _body)
 
 
 def _body(view: View) -> Content:
@@ -66,11 +60,8 @@ def projection(camera: Camera) -> Floats:
     return out
 
 
-def _read(source: Source) -> list[View]:
-    return [_view(source.json | body, where, source) for body, where in bodies(source.json)]
-
-
 def _view(body: Content, where: str, source: Source) -> View:
+    body = source.object | body
     refuse_lens(body, where)
     p = numbers(body, "projection", where, (4, 4))
     world = frame.inverse(numbers(body, "view", where, (4, 4)))
@@ -98,7 +89,7 @@ def _view(body: Content, where: str, source: Source) -> View:
     return of_frame(body, view)
 
 
-def _clip(p: Floats, parallel: bool, where: str) -> tuple[float, float]:
+def _clip(p: Floats, parallel: bool, where: str) -> Clip:
     """Return the depths that a projection has at -1 and 1."""
     c, d = p[2, 2:]
     near, far = ((d + 1) / c, (d - 1) / c) if parallel else (d / (c - 1), d / (c + 1))
@@ -116,9 +107,9 @@ OPENGL = Convention(
     "opengl",
     "OpenGL",
     "camera.json",
-    frozenset((SHIFT, ASPECT, PARALLEL, MIRRORED, SHEARED)),
+    (SHIFT, ASPECT, PARALLEL, MIRRORED, SHEARED),
     False,
-    _write,
+    lambda views, _: written({"convention": "opengl", "formula": _FORMULA}, views, _body),
     lambda source: has(source, "projection", "view"),
-    _read,
+    lambda source: [_view(body, where, source) for body, where in bodies(source.object)],
 )

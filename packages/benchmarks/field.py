@@ -5,7 +5,7 @@ A peer that is missing or fails is named once, with what to do about it, and lef
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from functools import partial
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from .peers import Embreex, MissingPeerError, Rtree, Timed, fitting
 from .plan import BLENDER, Case
 from .rays import Rays, rays_of
 from .results import Bench
-from .rounds import Runner
+from .rounds import Facts, Runner, Runners
 from .scenes import SUBJECTS, SUZANNE_FILE, mesh_of
 
 WHOLE = 2.0  # seconds at least that embreex may take for a picture before it gets a sample
@@ -60,9 +60,9 @@ class Field:
             self._embreex = None
         return self._mesh
 
-    def runners(self, scene: Scene, case: Case) -> dict[str, Runner]:
+    def runners(self, scene: Scene, case: Case) -> Runners:
         """Return who is timed beside us in a case, by name."""
-        out: dict[str, Runner] = {}
+        out: Runners = {}
         self._hits = None
         if SUBJECTS[case.scene].copies > 1:
             self._bench.note(f"{case.scene}: embreex has no instances: copied, they are gigabytes")
@@ -74,14 +74,14 @@ class Field:
             out |= self._of(BLENDER, lambda: self._of_blender(scene, wanted))
         return out
 
-    def compare(self, peers: Mapping[str, Runner], certified: Frame) -> None:
+    def compare(self, peers: Runners, certified: Frame) -> None:
         """Leave out who has failed; say in how many pixels embreex names another triangle."""
         self._gone |= {name for name, runner in peers.items() if runner.failed}
         if self._hits is not None:
             ours = certified.triangle_index[self._rays.rows].ravel()
             peers["embreex_trace"].facts["differs"] = float(np.mean(self._hits != ours))
 
-    def _of_embreex(self, camera: Camera) -> dict[str, Runner]:
+    def _of_embreex(self, camera: Camera) -> Runners:
         is_new = self._embreex is None
         embreex = self._embreex = self._embreex or Embreex(self._mesh)
         allowed = max(WHOLE, 2 * self._slow)
@@ -95,26 +95,24 @@ class Field:
         def ids() -> float:
             return embreex.ids(rays) * rays.of / rays.count
 
-        facts: dict[str, str | float] = {"rays": rays.count}
+        facts: Facts = {"rays": rays.count}
         out = {"embreex_trace": Runner(traced, facts=facts), "embreex_ids": Runner(ids)}
         if is_new:
             out["embreex_build"] = Runner(embreex.build, allowed)
         return out
 
-    def _of_rtree(self, scene: Scene) -> dict[str, Runner]:
+    def _of_rtree(self, scene: Scene) -> Runners:
         tracer, rays = Rtree(self._mesh), rays_of(scene.camera)
         return {"rtree": _of_sample(lambda: tracer.trace(rays, self._slow), self._slow)}
 
-    def _of_blender(self, scene: Scene, wanted: Collection[str]) -> dict[str, Runner]:
+    def _of_blender(self, scene: Scene, wanted: Collection[str]) -> Runners:
         self._blender.open(scene)
         slow = 2 * self._slow
         every = {"bvhtree": _of_sample(lambda: self._blender.bvhtree(self._slow), slow)}
         every |= {name: Runner(partial(self._blender.render, name), slow) for name in ENGINES}
         return {name: runner for name, runner in every.items() if name in wanted}
 
-    def _of(
-        self, peers: Collection[str], work: Callable[[], dict[str, Runner] | None]
-    ) -> dict[str, Runner]:
+    def _of(self, peers: Collection[str], work: Callable[[], Runners | None]) -> Runners:
         """Return the runners of peers, if they are there; else say, once, why they are not."""
         if self._gone.issuperset(peers):
             return {}

@@ -24,7 +24,7 @@ from .field import Field
 from .meshes import MissingMeshError
 from .plan import Case, Plan
 from .results import Bench
-from .rounds import Runner, in_rounds
+from .rounds import Runner, Runners, in_rounds
 from .scenes import build, mesh_of
 
 CERTIFIED, PLAIN = Settings(Method.CERTIFIED), Settings(Method.MOLLER_TRUMBORE)
@@ -99,7 +99,7 @@ def _measure_case(
     bench.keep_rounds(case.title, ours | peers)
 
 
-def _ours(mesh: Mesh, case: Case, results: dict[str, Any]) -> dict[str, Runner]:
+def _ours(mesh: Mesh, case: Case, results: dict[str, Any]) -> Runners:
     """Return who is timed on our own side; what certified has found last is in the results."""
 
     def timed(what: str, settings: Settings) -> float:

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.report import folders
 
-from .rounds import Runner
+from .rounds import Facts, Runners
 
 try:
     from pyperf import Benchmark, BenchmarkSuite, Run
@@ -49,7 +49,7 @@ class Bench:
                 [Run(seen, metadata=metadata, collect_metadata=False)]
             )
 
-    def keep_rounds(self, what: str, runners: Mapping[str, Runner]) -> None:
+    def keep_rounds(self, what: str, runners: Runners) -> None:
         """Keep what runners have taken, by their names; say who could not run."""
         for who, runner in runners.items():
             if runner.failed:
@@ -69,9 +69,9 @@ class Bench:
 
 
 @cache
-def machine() -> dict[str, str | float]:
+def machine() -> Facts:
     """Return the facts of this machine that times depend on, as pyperf finds them."""
-    facts: dict[str, str | float] = Run([1.0]).get_metadata()
+    facts: Facts = Run([1.0]).get_metadata()
     return facts | {f"version_{name}": _version(name) for name in LIBRARIES}
 
 

@@ -201,7 +201,7 @@ MITSUBA = Convention(
     "mitsuba",
     "Mitsuba 3",
     "sensors.xml",
-    frozenset((SHIFT, PARALLEL)),
+    (SHIFT, PARALLEL),
     False,
     _write,
     lambda source: "<sensor" in source.text,

@@ -53,13 +53,8 @@ def _body(view: View, centers: str) -> Content:
     }
 
 
-def _is_of(source: Source) -> bool:
-    content = source.json
-    return isinstance(content, dict) and content.get("class_name") in (_ONE, _MANY)
-
-
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     is_one = content["class_name"] == _ONE
     every = [(content, "")] if is_one else objects(content, "parameters")
     return [_view(body, where, source) for body, where in every]
@@ -78,9 +73,9 @@ OPEN3D = Convention(
     "open3d",
     "Open3D",
     "camera.json",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     True,
     _write,
-    _is_of,
+    lambda source: source.object.get("class_name") in (_ONE, _MANY),
     _read,
 )

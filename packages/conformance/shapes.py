@@ -57,6 +57,12 @@ def _shape(name: str, vertices: ArrayLike, polygons: Sequence[Polygon]) -> Shape
     return Shape(name, np.array(vertices, np.float32), tuple(polygons))
 
 
+def _circle(count: int) -> Floats:
+    """Return points of the circle of radius 1, (count, 2)."""
+    turns = 2 * np.pi * np.arange(count) / count
+    return np.column_stack((np.cos(turns), np.sin(turns)))
+
+
 @cache
 def bracket() -> Shape:
     """Return an L with a slanted top, 2 x 1.5 x 0.9 m: no mirroring leaves it as it is."""
@@ -78,11 +84,11 @@ def box(x: float = 1.0, y: float = 1.0, z: float = 1.0) -> Shape:
 
 
 @cache
-def ball(rings: int = 6, around: int = 10) -> Shape:
+def ball() -> Shape:
     """Return a globe of radius 1, its quads flat as both their ends are parallels."""
+    rings, around = 6, 10
     angles = np.pi * np.arange(1, rings) / rings
-    turns = 2 * np.pi * np.arange(around) / around
-    ring = np.column_stack((np.cos(turns), np.sin(turns)))
+    ring = _circle(around)
     points = [
         np.column_stack((np.sin(a) * ring, np.full(around, np.cos(a)))) for a in angles.tolist()
     ]
@@ -102,10 +108,10 @@ def ball(rings: int = 6, around: int = 10) -> Shape:
 
 
 @cache
-def prism(sides: int = 6) -> Shape:
+def prism() -> Shape:
     """Return a prism on a regular polygon, its ends one face each, its axis along Z."""
-    turns = 2 * np.pi * np.arange(sides) / sides
-    ring = np.column_stack((np.cos(turns), np.sin(turns)))
+    sides = 6
+    ring = _circle(sides)
     ends = [np.column_stack((ring, np.full(sides, z))) for z in (-1, 1)]
     walls = [(k, (k + 1) % sides, (k + 1) % sides + sides, k + sides) for k in range(sides)]
     caps = [tuple(range(sides, 2 * sides)), tuple(range(sides))[::-1]]
@@ -126,13 +132,12 @@ def sheet(size: float = 1.0) -> Shape:
 
 
 @cache
-def needles(count: int = 24) -> Shape:
+def needles() -> Shape:
     """Return a fan of thin triangles about the origin, in XZ: each is 13 times as long as wide."""
-    turns = 2 * np.pi * np.arange(count) / count
-    out = np.column_stack((np.cos(turns), np.zeros(count), np.sin(turns)))
-    across = np.column_stack((-np.sin(turns), np.zeros(count), np.cos(turns))) * 0.05
+    out = np.insert(_circle(24), 1, 0, axis=1)
+    across = out[:, ::-1] * (-0.05, 0, 0.05)
     corners = np.stack((0.15 * out, 1.5 * out - across, 1.5 * out + across), axis=1)
-    faces = [(k, k + 1, k + 2) for k in range(0, 3 * count, 3)]
+    faces = [(k, k + 1, k + 2) for k in range(0, 3 * len(out), 3)]
     return _shape("needles", corners.reshape(-1, 3), faces)
 
 

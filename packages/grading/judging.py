@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
@@ -19,9 +18,9 @@ from reference_tracer_processes.running import Limits
 
 from .cases import TableCases
 from .examples import find_examples
-from .external import Program, Run
+from .external import Code, Program, Run
 from .faults import Fault, dependence, find_faults, raising
-from .form import Form
+from .form import Arrays, Form
 from .judged_scene import JudgedScene
 from .matching import Match
 from .names import distinct, numbered
@@ -105,7 +104,7 @@ class Judgement:
 
 
 def judge(
-    submission: Path | Run,
+    submission: Code,
     cases: TableCases,
     scenes: Sequence[JudgedScene] = (),
     limits: Limits | None = None,
@@ -150,13 +149,13 @@ def judge(
     return out
 
 
-def _started(submission: Path | Run, form: Form, limits: Limits | None) -> Submission:
+def _started(submission: Code, form: Form, limits: Limits | None) -> Submission:
     if isinstance(submission, Run):
         return Program(submission, form, limits)
     return Student(submission, form, limits)
 
 
-def names(submissions: Sequence[Path | Run]) -> list[str]:
+def names(submissions: Sequence[Code]) -> list[str]:
     """Return what a reader calls each: its file's or folder's name, or a command; none twice.
 
     A program lies in the last file or folder that its command names.
@@ -173,7 +172,7 @@ def names(submissions: Sequence[Path | Run]) -> list[str]:
 def _on_cases(out: Judgement, student: Submission, cases: TableCases) -> None:
     student.new_scene()
     rows = cases.subject.rows(*student.ask(*cases.given))
-    rows[np.repeat(student.raised, len(rows) // len(student.raised))] = -np.inf
+    rows[np.repeat(student.raised, cases.each)] = -np.inf
     raises = student.raises
     answers = cases.answers(rows)
     out.faults, out.alike = find_faults(answers)
@@ -192,9 +191,9 @@ def _on_cases(out: Judgement, student: Submission, cases: TableCases) -> None:
 def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[None]:
     student.new_scene()
 
-    mended: list[tuple[Floats, ...]] = []
+    mended: list[Arrays] = []
 
-    def ask(*rays: Floats) -> tuple[Floats, ...]:
+    def ask(*rays: Floats) -> Arrays:
         replies = student.ask(*rays)
         if out.alike:
             right = out.alike.put_right(TRIANGLE.letters(*rays), TRIANGLE.rows(*replies))
@@ -214,7 +213,7 @@ def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[N
 
 
 def judge_all(
-    submissions: Mapping[str, Path | Run],
+    submissions: Mapping[str, Code],
     cases: TableCases,
     scenes: Sequence[JudgedScene] = (),
     limits: Limits | None = None,

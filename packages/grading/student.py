@@ -30,6 +30,15 @@ from .submission import Submission
 _LONGEST = 1 << 20  # bytes of a line that answers
 
 _CHILD = Path(__file__).with_name("child.py")
+_OWN = {  # of its environment
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "PYTHONHASHSEED": "0",
+    "PYTHONIOENCODING": "utf-8",
+    "PYTHONDONTWRITEBYTECODE": "1",
+    "PYTHONUNBUFFERED": "1",  # what is printed is there when it is ended
+}
 
 
 class Student(Submission):
@@ -39,14 +48,14 @@ class Student(Submission):
 
     def __init__(self, path: Path, form: Form, limits: Limits | None = None) -> None:
         super().__init__(form, limits)
-        self.path = Path(path).resolve()
+        self.path = path.resolve()
 
     def _answered(self, question: Floats) -> Floats:
         count = len(question)
         with self._watched() as (to, back):
             head = {"count": count, "seconds": self._left}
             to.write(json.dumps(head).encode() + b"\n")
-            to.write(memoryview(np.ascontiguousarray(question)).cast("B"))
+            to.write(question.tobytes())
             to.flush()
             error = self._answer(back)
             size = 0 if error else 8 * count * self.form.numbers
@@ -73,18 +82,15 @@ class Student(Submission):
             self._start()
 
     def _start(self) -> None:
-        own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
-        own |= {"PYTHONHASHSEED": "0", "PYTHONIOENCODING": "utf-8", "PYTHONDONTWRITEBYTECODE": "1"}
-        own["PYTHONUNBUFFERED"] = "1"  # what is printed is there when it is ended
         words = [sys.executable, "-P", str(_CHILD), str(self.path), self.form.to_json()]
         libraries = Path(sys.base_prefix), Path(sys.prefix), Path(np.__file__).parents[1]
         process = subprocess.Popen(
-            kept_in(words, None, own, self.path.parent, libraries),
+            kept_in(words, None, _OWN, self.path.parent, libraries),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             cwd=self.path.parent,
-            env=os.environ | own,
+            env=os.environ | _OWN,
             start_new_session=True,  # Ctrl-C is for this process, which ends that one
             **limited(self.limits.memory),
         )
