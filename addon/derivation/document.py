@@ -55,7 +55,7 @@ def document_markdown(derivation: Derivation) -> str:
 def _opening(derivation: Derivation) -> list[Block]:
     pixel, camera = derivation.pixel, derivation.pixel.camera
     of = f" of {pixel.source}" if pixel.source else ""
-    start, end = (digits_text(float(t)) for t in (camera.clip_start, camera.clip_end))
+    start, end = (digits_text(t) for t in (camera.clip_start, camera.clip_end))
     shown = [_text("camera", camera=camera, start=start, end=end)]
     if (camera.region.width, camera.region.height) != (camera.width, camera.height):
         shown.append(_text("border", pixel=pixel))

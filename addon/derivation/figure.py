@@ -108,7 +108,7 @@ def _rectangle(origin: Floats, axes: Floats, low: ArrayLike, high: ArrayLike) ->
     """Return the corners (4, 3) of a rectangle along two axes (2, 3), between (2,) low and high."""
     (left, bottom), (right, top) = np.asarray(low), np.asarray(high)
     corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
-    return np.asarray(origin + np.array(corners) @ axes)
+    return origin + np.array(corners) @ axes
 
 
 def _end(derivation: Derivation) -> float:
@@ -157,7 +157,7 @@ def _across(direction: Floats) -> Floats:
     least = np.eye(3)[np.argmin(np.abs(direction))]
     u = np.cross(direction, least)
     axes = np.stack((u, np.cross(direction, u)))
-    return np.asarray(axes / np.linalg.norm(axes, axis=1, keepdims=True))
+    return axes / np.linalg.norm(axes, axis=1, keepdims=True)
 
 
 def _cone(start: Floats, along: Floats, length: float, radius: float) -> Shape:

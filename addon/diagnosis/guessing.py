@@ -41,6 +41,7 @@ from .trial import Trial, in_full, traced_anew, trial_of
 from .variants import carried
 
 T = TypeVar("T")
+Scored = tuple[float, AnyFault, Guess]  # what a guess gains on the sample
 
 COMPLETE = 0.75  # the least recall of a guess, in the regions that it touches
 FITTED = 0.9  # that of fitted numbers: a fit of the wrong kind is nearly right in small regions
@@ -125,8 +126,8 @@ class Guessing:
             if not (f.everywhere and evidence.of_object)
             and least_with(1 if f.refine else 0) <= most
         ]
-        pool: list[tuple[float, AnyFault, Guess]] = []
-        unknown: list[tuple[float, AnyFault, Guess]] = []
+        pool: list[Scored] = []
+        vague: list[Scored] = []
         out: list[Trial] = []
         order = Effort if is_everywhere(evidence) else IN_PLACES
         for number, effort in enumerate(order, 1):
@@ -135,23 +136,21 @@ class Guessing:
             if effort == Effort.OBJECT and any(_may_be_first(of, t) for t in of_view):
                 break
             yield Progress(None, f"{number}/{len(order)}: trying {TRIED[effort]}")
-            scored = yield from self._scored(evidence, some)
-            unknown += [one for one in scored if one[1].vague]
-            known = [one for one in scored if not one[1].vague]
-            pool += [one for one in known if one[0] < NEARLY * unexplained]
-            sure = [one for one in known if one[0] >= NEARLY * unexplained]
+            sure: list[Scored] = []
+            for one in (yield from self._scored(evidence, some)):
+                gain, fault, _ = one
+                of_gain = sure if gain >= NEARLY * unexplained else pool
+                (vague if fault.vague else of_gain).append(one)
             out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
             if _is_enough(of, out):
                 break
         else:
             out += yield from self._trials_of(evidence, of, pool, MOST_UNSURE)
             if not _is_enough(of, out):
-                out += yield from self._trials_of(evidence, of, unknown, MOST_SURE)
+                out += yield from self._trials_of(evidence, of, vague, MOST_SURE)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
-    def _scored(
-        self, evidence: Evidence, faults: Sequence[AnyFault]
-    ) -> Work[list[tuple[float, AnyFault, Guess]]]:
+    def _scored(self, evidence: Evidence, faults: Sequence[AnyFault]) -> Work[list[Scored]]:
         """Score the guesses of some faults on the sample; return those that gain enough."""
         out = []
         for fault in faults:
@@ -179,7 +178,7 @@ class Guessing:
         self,
         evidence: Evidence,
         of: Evidence,
-        scored: list[tuple[float, AnyFault, Guess]],
+        scored: list[Scored],
         most: int,
     ) -> Work[list[Trial]]:
         """Try the guesses with the most gain, refining fitted ones."""

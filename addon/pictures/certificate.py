@@ -69,7 +69,7 @@ class CameraCertificate(NamedTuple):
 def known_points(camera: Camera) -> Floats:
     """Return points all over the view volume, its corners first: (3, n) float64, world space."""
     w, rng = camera.window, np.random.default_rng(SEED)
-    start, end = float(camera.clip_start), float(camera.clip_end)
+    start, end = camera.clip_start, camera.clip_end
     ends = np.array((start, end if end < np.inf else _ENDLESS * max(abs(start), 1.0)))
     corners = np.meshgrid((w.left, w.right), (w.bottom, w.top), ends, indexing="ij")
     x, y, depth = np.reshape(corners, (3, 8))

@@ -147,21 +147,23 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
     a, b = traced.ravel(), shown.ravel()
     with np.errstate(invalid="ignore"):
         fits = (a > FIT) & (b > FIT) & np.isfinite(b)
-    if several(a[fits]):
-        factor = float(np.median(b[fits] / a[fits]))
+    a, b = a[fits], b[fits]
+    if several(a):
+        factor = float(np.median(b / a))
         if abs(factor - 1) > LEAST_CHANGE:
             name = f"an exposure of {np.log2(factor):+.3g} stops"
             yield Curve(name, lambda c: c * factor, FITTED_SHARE, "exposure")
-    fits &= (a < 1 - FIT) & (b < 1 - FIT)
-    if several(a[fits]):
-        power = _fitted_power(a[fits], b[fits])
+    fits = (a < 1 - FIT) & (b < 1 - FIT)
+    a, b = a[fits], b[fits]
+    if several(a):
+        power = _fitted_power(a, b)
         if abs(power - 1) > LEAST_CHANGE:
             name = f"a gamma of {1 / power:.3g}"
             yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE, "gamma")
-        coded = _fitted_power(curve(a[fits]), curve(b[fits]))
+        coded = _fitted_power(curve(a), curve(b))
         if abs(coded - 1) > LEAST_CHANGE:
             yield _coded_power(coded, levels, FITTED_SHARE)
-            linear = _fitted_power(a[fits], curve(b[fits]))
+            linear = _fitted_power(a, curve(b))
             yield _coded_power(linear, levels, FITTED_SHARE, of_linear=True)
 
 

@@ -153,5 +153,4 @@ def beside_edges(color: Array, least: float) -> Bools:
     By more than `least` in a channel.
     """
     apart = [largest_within(v, 1) + largest_within(-v, 1) for v in np.moveaxis(color, -1, 0)]
-    out: Bools = np.max(apart, axis=0) > least
-    return out
+    return np.max(apart, axis=0) > least

@@ -113,7 +113,7 @@ def _sine(first: Floats, second: Floats) -> Floats:
 
 
 def _length(vectors: Floats) -> Floats:
-    return np.asarray(np.sqrt(dot(vectors, vectors)))
+    return np.sqrt(dot(vectors, vectors))
 
 
 def _ray_depth(scene: Scene, hits: Hits, positions: Floats, rays: Rays) -> Floats:

@@ -105,11 +105,9 @@ def _arrays(comparison: Comparison) -> Iterator[tuple[str, Iterator[Array]]]:
         yield "owner_traced", iter([owners.traced])
         yield "owner_shown", iter([owners.shown])
     yield "blender", iter([comparison.picture])
-    causes = comparison.causes
-    yield "cause", iter([causes.cause])
-    yield "blind", iter([causes.blind])
-    yield "cause_figure", iter([causes.figure])
-    yield "cause_allowed", iter([causes.allowed])
+    for name in ("cause", "blind", "figure", "allowed"):
+        values: Array = getattr(comparison.causes, name)
+        yield f"cause_{name}" if name in ("figure", "allowed") else name, iter([values])
 
 
 def _write_arrays(

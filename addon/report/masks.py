@@ -54,7 +54,7 @@ def whole(frame: Frame, number: int) -> Bools:
     scene = frame.scene
     others = [name for n, name in enumerate(scene.objects) if n != number]
     hits = trace(without(scene, others), Settings())
-    return np.asarray(hits.instance != NOTHING, np.bool_).reshape(frame.shape)
+    return (hits.instance != NOTHING).reshape(frame.shape)
 
 
 def write(directory: Path, frame: Frame, picture: str) -> list[str]:

@@ -8,13 +8,13 @@ from __future__ import annotations
 import json
 import struct
 from functools import cache
-from typing import Any
 
 import numpy as np
 from reference_tracer.arrays import Array
 from reference_tracer.camera_files.convention import View
 from reference_tracer.camera_files.frame import Y_UP_FROM_Z_UP
 from reference_tracer.camera_files.gltf import GLTF, camera_of, node_of
+from reference_tracer.files.checked_json import Content
 from reference_tracer.scene import Camera
 
 from .scenes import PALETTE, Item, KitScene, Move, Sheared
@@ -45,7 +45,7 @@ class _Writer:
     def __init__(self) -> None:
         self._binary = b""
         self._roots: list[int] = []
-        self._document: dict[str, Any] = {
+        self._document: Content = {
             "asset": {"version": "2.0", "generator": "Reference Tracer's conformance kit"},
             "extensionsUsed": ["KHR_materials_unlit"],
             "scene": 0,
@@ -60,7 +60,7 @@ class _Writer:
 
     def item(self, item: Item) -> None:
         """Add an object below a node for each of its parents."""
-        node: dict[str, Any] = {"mesh": self._mesh(item.shape, item.colors)}
+        node: Content = {"mesh": self._mesh(item.shape, item.colors)}
         for level, transform in enumerate(map(_transform, reversed(item.moves or (None,)))):
             name = f"{item.name}, parent {level}" if level else item.name
             node = {"children": [self._add("nodes", {"name": name} | node | transform)]}
@@ -85,7 +85,7 @@ class _Writer:
         chunks = _chunk(text, b" ", _JSON) + _chunk(self._binary, b"\0", _BINARY)
         return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
-    def _add(self, kind: str, thing: dict[str, Any]) -> int:
+    def _add(self, kind: str, thing: Content) -> int:
         self._document[kind].append(thing)
         return len(self._document[kind]) - 1
 
@@ -117,9 +117,7 @@ class _Writer:
             },
         )
 
-    def _accessor(
-        self, values: Array, kind: int, shape: str, target: int, ends: dict[str, Any]
-    ) -> int:
+    def _accessor(self, values: Array, kind: int, shape: str, target: int, ends: Content) -> int:
         held = values.tobytes()
         where = {"buffer": 0, "byteOffset": len(self._binary), "byteLength": len(held)}
         seen = self._add("bufferViews", where | {"target": target})
@@ -133,7 +131,7 @@ def _chunk(held: bytes, filler: bytes, kind: int) -> bytes:
     return struct.pack("<II", len(held), kind) + held
 
 
-def _transform(move: Move | Sheared | None) -> dict[str, Any]:
+def _transform(move: Move | Sheared | None) -> Content:
     """Return a node's transform, with Y up on both its sides."""
     if move is None:
         return {}

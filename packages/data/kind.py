@@ -25,10 +25,6 @@ Made = Callable[[Seen], Floats]  # -> (n, c)
 Turn = Callable[[Floats, Seen], Floats]  # of right values (n, c), what a fault makes of them
 
 
-def _firm(seen: Seen) -> Floats:
-    return np.zeros(len(seen.t))
-
-
 @dataclass(frozen=True)
 class Kind:
     """A kind of data: what a file of it holds, and what is right."""
@@ -41,7 +37,7 @@ class Kind:
     unit: str = ""
     follows_t: bool = True  # rounding along a ray, or beside it, moves the values
     # How far the rounding of a renderer may move them besides, (n,).
-    loose: Callable[[Seen], Floats] = _firm
+    loose: Callable[[Seen], Floats] = lambda seen: np.zeros(len(seen.t))
     empty: tuple[float, ...] = (0.0,)  # what all channels have where nothing is
     space: str = ""  # of vectors: 'world' or 'camera'
     encoded: bool = False  # -1 to 1 is stored as 0 to 1

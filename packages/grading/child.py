@@ -86,8 +86,7 @@ def checked(result: Any, form: Form, count: int) -> np.ndarray:
         _numbers(name, value, (count, *shape)).reshape(count, -1)
         for (name, shape), value in zip(wanted, result, strict=True)
     ]
-    table = np.concatenate(parts, axis=1)
-    return np.where(np.isneginf(table), np.inf, table)  # as much of a miss: -inf is what raises
+    return np.concatenate(parts, axis=1)
 
 
 def _numbers(name: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
@@ -122,7 +121,6 @@ def described(error: BaseException, path: Path) -> dict[str, Any]:
         SyntaxError: "syntax",
         SystemExit: "exit",
         MemoryError: "memory",
-        RecursionError: "exception",
     }
     kind = next((kinds[c] for c in type(error).__mro__ if c in kinds), "exception")
     try:
@@ -142,10 +140,11 @@ def described(error: BaseException, path: Path) -> dict[str, Any]:
         for f in traceback.extract_tb(error.__traceback__)
         if Path(f.filename).parent == path.parent
     ]
-    file = Path(error.filename or "") if isinstance(error, SyntaxError) else None
-    if isinstance(error, SyntaxError) and file and file.parent == path.parent:
-        trace.append([file.name, error.lineno, "", (error.text or "").strip()])
-        message = f"{type(error).__name__}: {error.msg}"
+    if isinstance(error, SyntaxError):
+        file = Path(error.filename or "")
+        if file.parent == path.parent:
+            trace.append([file.name, error.lineno, "", (error.text or "").strip()])
+            message = f"{type(error).__name__}: {error.msg}"
     return {"kind": kind, "message": message[:LONGEST], "trace": trace[-20:]}
 
 
@@ -198,7 +197,6 @@ def main() -> None:
     random.seed(0)
     np.random.seed(0)
     serve(Path(sys.argv[1]), json.loads(sys.argv[2]), requests, answers)
-    answers.flush()
     os._exit(0)  # whatever threads the student's code has left
 
 

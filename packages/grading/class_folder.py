@@ -23,7 +23,7 @@ from reference_tracer import __version__
 from reference_tracer.report.folders import write_json, write_text
 from reference_tracer_processes.sandbox import sandbox
 
-from .external import Run
+from .external import Code
 from .formats import FORMATS
 from .judging import Judgement
 from .names import numbered
@@ -67,12 +67,12 @@ class ClassFolder:
         self._options = repr((subject.name, options))
         self._files = _file_names(names)
 
-    def kept_of(self, submissions: Mapping[str, Path | Run]) -> dict[str, Student]:
+    def kept_of(self, submissions: Mapping[str, Code]) -> dict[str, Student]:
         """Return what was said before of those that have not changed since, by name."""
         found = {name: self._kept(name, each) for name, each in submissions.items()}
         return {name: said for name, said in found.items() if said}
 
-    def keep(self, submission: Path | Run, j: Judgement) -> Student:
+    def keep(self, submission: Code, j: Judgement) -> Student:
         """Keep a student's page, and what is said of him, for `save`; return that."""
         said, text = student(j), page(j)
         shown = hashlib.sha256(text.encode()).hexdigest()
@@ -103,16 +103,14 @@ class ClassFolder:
         for name in formats:
             for path, text in FORMATS[name](pages):
                 write_text(self._directory / path, text)
-        alone = [self._page(s["file"]) for s in students] if len(students) == 1 else []
-        text = (
-            alone[0].read_text(encoding="utf-8")
-            if alone
-            else class_page(pages, self._subject.title)
-        )
+        if len(students) == 1:
+            text = self._page(students[0]["file"]).read_text(encoding="utf-8")
+        else:
+            text = class_page(pages, self._subject.title)
         write_text(self._directory / PAGE, text)
         write_json(self._directory / JSON, to_dict(self._subject, students))
 
-    def _kept(self, name: str, submission: Path | Run) -> Student | None:
+    def _kept(self, name: str, submission: Code) -> Student | None:
         with suppress(OSError, ValueError, KeyError, TypeError):
             found = json.loads(self._record(name).read_text(encoding="utf-8"))
             record, said = found["record"], dict(found["record"]["student"])
@@ -133,7 +131,7 @@ class ClassFolder:
     def _record(self, name: str) -> Path:
         return self._page(name).with_suffix(".json")
 
-    def _key(self, submission: Path | Run) -> str:
+    def _key(self, submission: Code) -> str:
         """Return what tells a student's code, and the options, from any other.
 
         Of a Python file that is what it imports of its own folder, too; of a program all files that

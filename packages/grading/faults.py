@@ -13,13 +13,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Bools, Floats, Places
 
 from .cases import TableAnswers, TableCases
 from .known import Ask
 from .matching import Match, differs, doubles, matches, singles
-from .programs import Mask
 from .submission import Submission
 
 ALONE = 3, 1  # sizes of the calls in which some cases are asked about again
@@ -96,7 +94,7 @@ def raising(student: Submission) -> list[Fault]:
     return [Fault("raises", text, student.raises)]
 
 
-def _tested(answers: TableAnswers, among: Mask) -> list[Fault]:
+def _tested(answers: TableAnswers, among: Bools) -> list[Fault]:
     """Return the faults of some wrong answers that pass their tests, and what is unrecognised."""
     faults: dict[str, Fault] = {}
     groups = list(answers.cases.subject.groups)
@@ -148,13 +146,13 @@ def dependence(answers: TableAnswers, ask: Ask) -> list[Fault]:
     return []
 
 
-def _spread(count: int) -> NDArray[np.intp]:
+def _spread(count: int) -> Places:
     """Return the numbers of CALLS things of so many, evenly spread."""
     return np.unique(np.arange(CALLS) * (count - 1) // max(CALLS - 1, 1))
 
 
-def _again(cases: TableCases, ask: Ask, rows: NDArray[np.intp]) -> Floats:
+def _again(cases: TableCases, ask: Ask, rows: Places) -> Floats:
     """Return what is answered of some rows of the answers, (k, m); a case may have several."""
-    own, within = np.divmod(rows, len(cases.group) // len(cases.given[0]))
+    own, within = np.divmod(rows, cases.each)
     again = cases.subject.rows(*ask(*(array[own] for array in cases.given)))
-    return again[np.arange(len(rows)) * (len(again) // len(rows)) + within]
+    return again[np.arange(len(rows)) * cases.each + within]

@@ -15,12 +15,11 @@ from functools import cache, cached_property, reduce
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Bools, Floats, Places
 
 from .cases import TableCases
 from .mutations import Mutation, mutations
-from .programs import Letters, Mask, Part, Program, columns
+from .programs import Letters, Parts, Program, columns
 
 DIGITS = 1e-9  # relative: two orders of summation of a wrong formula differ by far less
 FEW = 2e-3  # share of cases in which rounding may decide what a wrong program answers
@@ -55,7 +54,7 @@ class Match:
         return np.where(kept[:, None], replies, self.right.answers(asked))
 
 
-def alike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> bool:
+def alike(own: Floats, other: Floats, parts: Parts) -> bool:
     """Return whether a function answers as a program does, but for rounding.
 
     What a function gives beside the first part where it misses counts, too, if it gives any: of
@@ -66,8 +65,8 @@ def alike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> bool:
 
 
 def differs(
-    own: Floats, other: Floats, parts: tuple[Part, ...], digits: float, strictly: bool = True
-) -> Mask:
+    own: Floats, other: Floats, parts: Parts, digits: float, strictly: bool = True
+) -> Bools:
     """Return where a function answers otherwise than another, or than several, (..., n).
 
     Parameters
@@ -82,7 +81,7 @@ def differs(
     hit, also = np.isfinite(own[..., 0]), np.isfinite(other[..., 0])
     off = hit != also
     with np.errstate(all="ignore"):
-        for k, (part, numbers) in enumerate(zip(parts, columns(parts), strict=True)):
+        for k, (part, numbers) in enumerate(columns(parts)):
             size = np.maximum(part.least, _largest(other[..., numbers]))
             by = _largest(own[..., numbers] - other[..., numbers])
             if strictly:
@@ -93,7 +92,7 @@ def differs(
     return off
 
 
-def _unlike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> NDArray[np.float64]:
+def _unlike(own: Floats, other: Floats, parts: Parts) -> Floats:
     """Return the share of cases that a function answers otherwise than some programs, (...)."""
     return differs(own, other, parts, DIGITS).mean(axis=-1)
 
@@ -104,15 +103,15 @@ def _largest(numbers: Floats) -> Floats:
     return reduce(np.maximum, (size[..., k] for k in range(size.shape[-1])))
 
 
-def _given(numbers: Floats) -> Mask:
+def _given(numbers: Floats) -> Bools:
     """Return where a function gives numbers at all: of a miss it may give anything."""
     size = _largest(numbers)
     return np.isfinite(size) & (size > 0)
 
 
-def _told(own: Floats, parts: tuple[Part, ...]) -> Mask:
-    told: Mask = np.isfinite(own[:, 0])
-    for numbers in columns(parts)[1:]:
+def _told(own: Floats, parts: Parts) -> Bools:
+    told: Bools = np.isfinite(own[:, 0])
+    for _, numbers in columns(parts)[1:]:
         told = told | _given(own[:, numbers])
     return told
 
@@ -140,7 +139,7 @@ def _questions(cases: TableCases) -> Letters:
 
 
 @cache
-def _few(cases: TableCases) -> NDArray[np.intp]:
+def _few(cases: TableCases) -> Places:
     """Return which of the cases that tell are tried first."""
     group = cases.group[cases.tells]
     return np.concatenate([np.flatnonzero(group == g)[:EACH] for g in np.unique(group)])

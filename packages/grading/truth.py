@@ -10,23 +10,21 @@ which float64 rounds nothing.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Bools, Floats
 from reference_tracer.certified.bounds import U
 from reference_tracer.derivation.expressions import evaluate
 
 from .bounded import Bounded
-from .programs import COMPARISONS, CONSTANTS, Letters, Mask, Program, chosen, columns, unit
+from .programs import COMPARISONS, CONSTANTS, Letters, Named, Program, chosen, columns, unit
 
 ROUNDINGS = 16  # how far a sound formula may be off, for each of those of a right program
 
 
 @np.errstate(all="ignore")
-def truth(program: Program, letters: Letters, whole: Mask) -> tuple[Floats, Floats, Mask]:
+def truth(program: Program, letters: Letters, whole: Bools) -> tuple[Floats, Floats, Bools]:
     """Return right answers (n, m), how far others may be off, and where it is in doubt, (n,).
 
     Parameters
@@ -48,11 +46,11 @@ def truth(program: Program, letters: Letters, whole: Mask) -> tuple[Floats, Floa
     count = letters.shape[0]
     numbers = [n for part in program.parts for label in part.labels for n in np.ravel(names[label])]
     right, error = (
-        np.stack([np.broadcast_to(np.asarray(getattr(n, kind)), count) for n in numbers], axis=1)
+        np.stack([np.broadcast_to(getattr(n, kind), count) for n in numbers], axis=1)
         for kind in ("value", "error")
     )
     allowed = ROUNDINGS * U * error
-    for part, place in zip(program.parts, columns(program.parts), strict=True):
+    for part, place in columns(program.parts):
         if part.unit:
             size = np.linalg.norm(right[:, place], axis=1, keepdims=True)
             right[:, place] = unit(right[:, place])
@@ -61,29 +59,29 @@ def truth(program: Program, letters: Letters, whole: Mask) -> tuple[Floats, Floa
     return right, allowed, doubt & ~whole | is_unbounded
 
 
-def bounded(program: Program, letters: Letters) -> dict[str, Any]:
+def bounded(program: Program, letters: Letters) -> Named:
     """Return all of a program's numbers as `Bounded`, vectors as arrays of three."""
     return program.computed(letters.each(Bounded.of))
 
 
-def _hits(program: Program, letters: Letters, names: Mapping[str, Any]) -> tuple[Mask, Mask]:
+def _hits(program: Program, letters: Letters, names: Named) -> tuple[Bools, Bools]:
     """Return where all conditions hold, and where that is in doubt, in the letters' shape."""
-    hit, certain = np.isfinite(names["t"].value), np.ones(letters.shape, bool)
-    missed = np.zeros(letters.shape, bool)  # for certain
+    hit = np.isfinite(names["t"].value)
+    missed, unsure = np.zeros((2, *letters.shape), bool)  # missed for certain
     for left, comparison, limit in program.conditions:
         found = evaluate(left, names)
         holds = COMPARISONS[comparison](found.value, CONSTANTS[limit])
         far = np.abs(found.value - CONSTANTS[limit]) > ROUNDINGS * U * found.error
         missed |= ~holds & far
-        certain &= far
+        unsure |= ~far
         hit = hit & holds
-    unsure = ~certain & ~missed
+    unsure &= ~missed
     for where in np.argwhere(unsure):
         hit[tuple(where)] = exact_hit(program, letters, tuple(where))
     return hit, unsure
 
 
-def _take(choice: str, names: dict[str, Any], hit: Mask, doubt: Mask) -> Mask:
+def _take(choice: str, names: Named, hit: Bools, doubt: Bools) -> Bools:
     """Take one of the objects that are hit, and return where that is in doubt, (n,).
 
     An object that is missed by a rounding is a rival, too, by the t at which it would be hit.
@@ -97,7 +95,7 @@ def _take(choice: str, names: dict[str, Any], hit: Mask, doubt: Mask) -> Mask:
     error = np.take_along_axis(names["t"].error, which, axis=1)[:, 0]
     names |= {name: Bounded(value, np.zeros(1)) for name, value in taken.items()}
     names["t"] = Bounded(taken["t"], error)
-    unsure: Mask = (rivals.sum(axis=1) > 1) | (doubt & rivals).any(axis=1)
+    unsure: Bools = (rivals.sum(axis=1) > 1) | (doubt & rivals).any(axis=1)
     return unsure
 
 
@@ -110,7 +108,7 @@ def exact_hit(program: Program, letters: Letters, where: tuple[int, ...]) -> boo
         return False  # there is no plane, or it is not met
 
 
-def exactly(program: Program, letters: Letters, where: tuple[int, ...]) -> dict[str, Any]:
+def exactly(program: Program, letters: Letters, where: tuple[int, ...]) -> Named:
     """Return all of a program's numbers of one case as fractions, vectors as arrays of three.
 
     Raises

@@ -9,7 +9,7 @@ from typing import Any
 from reference_tracer.arrays import Floats
 from reference_tracer.report.folders import finite
 
-from .form import Form
+from .form import Arrays, Form
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class WrongCase:
         cls,
         form: Form,
         group: str,
-        given: tuple[Floats, ...],
+        given: Arrays,
         true: Floats,
         own: Floats,
         **where: Any,

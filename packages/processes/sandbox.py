@@ -52,14 +52,11 @@ def secret() -> bytes | None:
     with suppress(OSError):
         if sandbox():
             path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            with suppress(FileExistsError), os.fdopen(_created(path), "wb") as file:
-                file.write(secrets.token_bytes(32))
+            with suppress(FileExistsError):
+                path.touch(0o600, exist_ok=False)
+                path.write_bytes(secrets.token_bytes(32))
             return path.read_bytes() or None
     return None
-
-
-def _created(path: Path) -> int:
-    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
 
 
 def _secrets() -> Path:

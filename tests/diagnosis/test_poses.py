@@ -14,7 +14,7 @@ from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.changes import SCALED
 from reference_tracer.diagnosis.faults.changes import TURNED as TURNS
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
-from reference_tracer.diagnosis.faults.fitting import Traced
+from reference_tracer.diagnosis.faults.fitting import traced
 from reference_tracer.diagnosis.faults.looked import Looked
 from reference_tracer.diagnosis.faults.pose import Posed
 from reference_tracer.diagnosis.faults.stand import TURNED
@@ -37,9 +37,9 @@ def test_an_orthographic_camera_that_turns_leaves_what_was_near_its_rays(few):
     scene = scene.seen_by(replace(scene.camera, world_from_camera=matrix))
     color = pictured(scene, "camera_turned", Numbers(turn))
     found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
-    traced = Traced(Evidence(found.case, found.frame, found.causes), TURNED.camera)
-    assert not result_of(traced.right((0.0, 0.0, 0.0))).all()
-    assert result_of(traced.right(turn)).all()
+    right = traced(Evidence(found.case, found.frame, found.causes), TURNED.camera)
+    assert not result_of(right((0.0, 0.0, 0.0))).all()
+    assert result_of(right(turn)).all()
 
 
 @pytest.mark.slow

@@ -48,7 +48,7 @@ def constant_colors(scene: Scene, depsgraph: Depsgraph) -> Iterator[None]:
             lamp.visible_camera = False
     scene.camera.evaluated_get(depsgraph).data.dof.use_dof = False
     material = made_for(scene, bpy.data.materials.new("Reference Tracer Constant"))
-    _emission(material, scene, depsgraph)
+    _emit(material, scene, depsgraph)
     scene.world = None
     [layer] = scene.view_layers
     layer.use_solid = True
@@ -81,15 +81,22 @@ def check_slots(scene: Traced, color_type: str) -> None:
             )
 
 
-def _emission(material: Material, scene: Any, depsgraph: Depsgraph) -> None:
+def emission(material: Material) -> Any:
+    """Have a material emit, and nothing else; return the socket of the colour."""
     material.use_nodes = True
     tree = material.node_tree
-    shading = scene.display.shading
     tree.nodes.clear()
-    emission = tree.nodes.new("ShaderNodeEmission")
+    node = tree.nodes.new("ShaderNodeEmission")
     output = tree.nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(emission.outputs[0], output.inputs["Surface"])
-    color: Any = emission.inputs["Color"]
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
+    return node.inputs["Color"]
+
+
+def _emit(material: Material, scene: Any, depsgraph: Depsgraph) -> None:
+    """Have a material emit the colours of a scene's solid shading."""
+    color = emission(material)
+    tree = material.node_tree
+    shading = scene.display.shading
     if shading.color_type == "SINGLE":
         color.default_value = (*shading.single_color, 1.0)
     else:

@@ -12,12 +12,13 @@ from typing import Any
 
 import bpy
 import numpy as np
-from bpy.types import Context, Material, NodeTree, Object
+from bpy.types import Context, Material, Object
 from mathutils import Matrix
 
 from ...arrays import Colors, Floats, Integers
 from ...pictures.palette import By, eight_bits
 from ...scene import Scene, SceneError
+from ..drawing.constant_material import emission
 from ..drawing.judges import RENDER_RESULT
 from ..reading.view_volume import polygon
 from .against import exported_in
@@ -97,11 +98,11 @@ def _add_surfaces(scene: bpy.types.Scene, above: Any, exported: Scene) -> None:
         for k, m in enumerate(exported.meshes)
         if k in exported.instance_meshes
     }
-    emission = cache(_emission)  # one for each colour
+    made = cache(_material)  # one for each colour
     for instance in exported.instances:
         own = bpy.data.objects.new(exported.objects[instance.object], meshes[instance.mesh])
         _place(scene, own, above, instance.world_from_object)
-        _color(own, instance.colors, emission)
+        _color(own, instance.colors, made)
     for plane in exported.planes:
         corners = polygon(exported.camera, plane)
         if len(corners):
@@ -109,7 +110,7 @@ def _add_surfaces(scene: bpy.types.Scene, above: Any, exported: Scene) -> None:
             mesh = _mesh(name, corners, np.arange(len(corners))[None], np.zeros(1, np.int32))
             own = bpy.data.objects.new(name, mesh)
             _place(scene, own, above, np.eye(4))
-            _color(own, plane.color[None], emission)
+            _color(own, plane.color[None], made)
 
 
 def _place(scene: bpy.types.Scene, obj: Object, above: Any, matrix: Floats) -> None:
@@ -129,24 +130,18 @@ def _mesh(name: str, vertices: Floats, faces: Any, slots: Integers) -> bpy.types
     return mesh
 
 
-def _color(obj: Object, colors: Colors, emission: Callable[[_Rgba], Material]) -> None:
+def _color(obj: Object, colors: Colors, made: Callable[[_Rgba], Material]) -> None:
     """Show an object in colours by its slots; a slot past the end has the last one."""
     opaque = [(*map(float, color[:3]), 1.0) for color in colors]
     for number, slot in enumerate(obj.material_slots):
         slot.link = "OBJECT"
-        slot.material = emission(opaque[min(number, len(opaque) - 1)])
+        slot.material = made(opaque[min(number, len(opaque) - 1)])
     obj.color = opaque[0]
 
 
-def _emission(rgba: _Rgba) -> Material:
+def _material(rgba: _Rgba) -> Material:
     name = "#" + eight_bits(np.array(rgba[:3], np.float32)).tobytes().hex()
     material = bpy.data.materials.new(name)
     material.diffuse_color = rgba
-    material.use_nodes = True
-    tree: NodeTree = material.node_tree
-    tree.nodes.clear()
-    emission: Any = tree.nodes.new("ShaderNodeEmission")
-    emission.inputs["Color"].default_value = rgba
-    output = tree.nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    emission(material).default_value = rgba
     return material

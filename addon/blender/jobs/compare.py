@@ -19,6 +19,7 @@ from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
 from ...manifest import Manifest
 from ...pictures.certificate import CameraCertificate
+from ...pictures.identity import Owners
 from ...pictures.palette import VIEWPORT, By
 from ...pictures.picture import Picture
 from ...pictures.renderers import EMBREE, RASTER
@@ -79,7 +80,7 @@ def gather_case(context: Context, **choices: Any) -> Case:
     exporting = _Export(plan, is_automatic)
     drawing, pixels, owners = plan.drawn(exporting, chosen.identity)
     made = partial(_picture, judge=judge, used=exporting.used, snapping=snapping)
-    shown = replace(made(pixels), owners=owners)
+    shown = made(pixels, owners)
     later = _a_frame_later(drawing) if chosen.self_check else None
     shown, manifest = with_what_draws_itself(drawing, shown, chosen.identity)
     if there != _names(user):
@@ -94,7 +95,7 @@ def gather_case(context: Context, **choices: Any) -> Case:
         self_check=chosen.self_check,
         next_frame=later,
         tracer=chosen.tracer,
-        variants=partial(variants, user.name_full, layer, judge.ignores, drawing.palette),
+        variants=partial(variants, user.name_full, layer, judge.ignores, drawing.plan.palette),
     )
     if plan.like_for_like:
         color_type = user.display.shading.color_type
@@ -144,9 +145,8 @@ class _Export:
             _check_colors(plan.judge, scene, manifest, used["color_type"], tmp)
         else:
             of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
-            of_scene = (replace(u, object=f"scene '{plan.scene.name}'") for u in of_picture)
-            manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_scene))
-        return Drawing.of(plan, scene, manifest)
+            manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_picture))
+        return Drawing(plan, scene, manifest)
 
 
 def _check_colors(
@@ -165,7 +165,9 @@ def _names(scene: bpy.types.Scene) -> list[str]:
     return [o.name_full for o in scene.objects]
 
 
-def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float) -> Picture:
+def _picture(
+    pixels: Colors, owners: Owners | None, judge: Judge, used: dict[str, Any], snapping: float
+) -> Picture:
     smooth = used["anti_aliasing"]
     return Picture(
         pixels,
@@ -178,13 +180,14 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
             EMBREE if judge.traces_rays else RASTER,
         ),
         storage=Storage(sums=int(smooth) if smooth.isdigit() else 0),
+        owners=owners,
     )
 
 
 def _a_frame_later(drawing: Drawing) -> Scene:
     """Return the scene of the next frame."""
-    with drawing.prepared() as (tmp, _):
-        return export_at(tmp, tmp.frame_current + 1, drawing.judge)
+    with drawing.plan.prepared() as (tmp, _):
+        return export_at(tmp, tmp.frame_current + 1, drawing.plan.judge)
 
 
 def compare_open_file(

@@ -18,13 +18,13 @@ from ...arrays import Bools, Floats
 from ...causes.checks.probe import Probe
 from ...rendering import steps
 from ...scene import Camera
-from ...tracer.camera import camera_rays, film_of
+from ...tracer.camera import camera_rays
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import WORTH, Evidence
 from .fault import Numbers, Values, of_camera
 from .matching import Fitted, fitted, is_everywhere, matches, seen_by
-from .search import Search, values_of
+from .search import Right, Search, values_of
 
 REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
 FINE_REACH = 1.0  # the same in a refinement: fewer triangles are near
@@ -56,7 +56,7 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
     with np.errstate(invalid="ignore"):
         rays = camera_rays(camera, *evidence.film[:, few])
         # A panorama's or perspective's rays pass one point: any point of them will do.
-        film = np.stack(film_of(own, rays.at(np.ones(rays.count)))[:2])
+        film = seen_by(own, rays.at(np.ones(rays.count)))
         column, row = np.floor(film - ((own.region.x0,), (own.region.y0,)))
     height, width = evidence.unexplained.shape
     inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
@@ -141,7 +141,7 @@ def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
             axes = axes @ found.axes if found else axes
             reach *= WIDER
         search = Search(
-            Traced(evidence, family.camera, reach).right,
+            traced(evidence, family.camera, reach),
             axes,
             least=evidence.least_right(family.worth),
             unseen=family.unseen(evidence),
@@ -163,7 +163,7 @@ def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
                 out.append(Numbers(start, start, start, words=family.words(own, *start)))
             elif guess:
                 out.append(guess)
-                right = yield from Traced(few, family.camera).right(guess.values)
+                right = yield from traced(few, family.camera)(guess.values)
                 if right is not None and right.mean() >= ENOUGH:
                     break
         return out
@@ -205,8 +205,8 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
     return best
 
 
-class Traced:
-    """Says which pixels of a sample are right with a camera of some numbers.
+def traced(evidence: Evidence, change: Callable[..., Camera | None], reach: float = REACH) -> Right:
+    """Return a function: which pixels of a sample are right with a camera of some numbers.
 
     Rays are tested with the triangles near those of a camera that was prepared, as long as what
     they meet is seen near enough by it.
@@ -215,42 +215,29 @@ class Traced:
     ----------
     evidence : Evidence
         With the sample, and the scene that is traced.
-    camera : callable
+    change : callable
         The camera with some numbers, from the scene's own one.
     reach : float
         Pixels that rays may pass beside where they start.
     """
+    guide = evidence.points[:, _few(evidence)]  # how far it moves says whether triangles stay near
+    probes: list[Probe] = []  # the last one first
 
-    def __init__(
-        self,
-        evidence: Evidence,
-        camera: Callable[..., Camera | None],
-        reach: float = REACH,
-    ) -> None:
-        self.evidence = evidence
-        self.camera = camera
-        self.reach = reach
-        # What is seen: how far it moves says whether triangles stay near.
-        self.guide = evidence.points[:, _few(evidence)]
-        self.probes: list[Probe] = []  # the last one first
+    def is_near(prepared: Camera, camera: Camera) -> bool:
+        with np.errstate(all="ignore"):
+            moved = np.abs(seen_by(camera, guide) - seen_by(prepared, guide))
+        known = np.isfinite(moved)
+        return bool(known.any() and moved[known].max() <= reach)
 
-    def right(self, values: Values) -> Work[Bools | None]:
-        """Return which of the n pixels agree, (n,); None if there is no such camera."""
-        evidence = self.evidence
-        camera = self.camera(evidence.case.scene.camera, *values)
+    def right(values: Values) -> Work[Bools | None]:
+        camera = change(evidence.case.scene.camera, *values)
         if camera is None:
             return None
         scene = evidence.case.scene.seen_by(camera)
-        probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
+        probe = next((p for p in probes if is_near(p.scene.camera, camera)), None)
         if probe is None:
-            probe = yield from evidence.probe(scene, self.reach)
-            self.probes = [probe, *self.probes[: PREPARED - 1]]
+            probe = yield from evidence.probe(scene, reach)
+            probes[:] = [probe, *probes[: PREPARED - 1]]
         return evidence.agrees(scene, (yield from replace(probe, scene=scene).trace()))
 
-    def _near(self, prepared: Camera, camera: Camera) -> bool:
-        """Return whether a camera sees everything near where the prepared one does."""
-        with np.errstate(all="ignore"):
-            before, now = (np.stack(film_of(c, self.guide)[:2]) for c in (prepared, camera))
-            moved = np.abs(now - before)
-        known = np.isfinite(moved)
-        return bool(known.any() and moved[known].max() <= self.reach)
+    return right

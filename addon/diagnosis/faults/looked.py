@@ -35,6 +35,7 @@ class Looked:
     rest: Scene  # without the object
     seen: Bools  # (h, w) where it is traced
     shown: Bools  # (h, w) where the picture shows it, as far as is known
+    around: Bools  # (h, w) both, and AROUND pixels beside them
     depth: float  # of the object, metres
     kept: bool  # whether it stays at its place, too
 
@@ -59,8 +60,8 @@ class Looked:
             return None
         around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
         chosen = np.zeros_like(seen)
-        around &= evidence.beside_edges if evidence.fine else True
-        for some in (around & evidence.unexplained, around & ~evidence.unexplained):
+        where = around & evidence.beside_edges if evidence.fine else around
+        for some in (where & evidence.unexplained, where & ~evidence.unexplained):
             chosen.flat[spread(some, evidence.size // 2)] = True
         rows, columns = np.nonzero(chosen)
         at = rows, columns
@@ -69,7 +70,7 @@ class Looked:
         depth = float(np.median(frame.t[seen]))
         picture = evidence.picture.at(at)
         behind = yield from evidence.trace(rest, at)
-        out = cls(evidence, name, at, picture, behind, rest, seen, shown, depth, kept)
+        out = cls(evidence, name, at, picture, behind, rest, seen, shown, around, depth, kept)
         return out if out._may_settle >= WORTH * evidence.unexplained.sum() else None
 
     @property
@@ -88,9 +89,8 @@ class Looked:
     def _may_settle(self) -> float:
         """How many unexplained pixels may agree: they show the object, or what is behind it."""
         unexplained, may = self.evidence.unexplained[self.at], self._beneath | self.shown[self.at]
-        around = largest_within((self.seen | self.shown).astype(np.int8), AROUND) > 0
         share = float(np.mean(may[unexplained])) if unexplained.any() else 0.0
-        return share * int((around & self.evidence.unexplained).sum())
+        return share * int((self.around & self.evidence.unexplained).sum())
 
     @cached_property
     def _beneath(self) -> Bools:

@@ -9,13 +9,13 @@ lengths of the picture's longer side. Both projections are one program: `perspec
 from __future__ import annotations
 
 import numpy as np
+from numpy.random import Generator
 from reference_tracer.arrays import Floats
 
-from ..cases import TableCases
-from ..form import Field, Form
+from ..form import Arrays, Field, Form, side_by_side
 from ..programs import Letters, Part, Program, unit
 from .camera_slips import SLIPS
-from .subject import Subject, side_by_side
+from .subject import Groups, Subject
 
 SEED = 20261126
 EACH = 40  # cases of a group
@@ -110,8 +110,8 @@ GROUPS = {
 }
 
 
-def cases() -> TableCases:
-    """Return the cases; the same each time."""
+def cases() -> Groups:
+    """Return what is asked, in groups; the same each time."""
     rng = np.random.default_rng(SEED)
     groups = {}
     for name in GROUPS:
@@ -121,10 +121,10 @@ def cases() -> TableCases:
             size = rng.permuted(size, axis=1)
         pixel = np.floor(rng.random((EACH, 2)) * size)
         groups[name] = (pixel, size, *some_cameras(rng, name, EACH))
-    return TableCases.of(CAMERA, groups)
+    return groups
 
 
-def some_cameras(rng: np.random.Generator, name: str, count: int) -> tuple[Floats, ...]:
+def some_cameras(rng: Generator, name: str, count: int) -> Arrays:
     """Return what a camera is given besides its resolution, of a group."""
     shifts = rng.uniform(-0.5, 0.5, (count, 2)) if "shifted" in name else np.zeros((count, 2))
     axes = np.linalg.qr(rng.normal(size=(count, 3, 3)))[0]
@@ -152,6 +152,6 @@ CAMERA = Subject(
     weights={"direction": 0.5, "origin": 0.5},
     groups=GROUPS,
     letters=letters,
-    cases=cases,
+    asked=cases,
     rows=rows,
 )

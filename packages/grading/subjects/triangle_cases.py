@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from reference_tracer.arrays import Floats
+from numpy.random import Generator
+from reference_tracer.arrays import Bools, Floats
 
-from ..programs import Mask, unit
+from ..programs import unit
 
 SEED = 20240611
 EACH = 400  # pairs of a group
@@ -46,7 +47,7 @@ def normals(p: Floats) -> Floats:
     return np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
 
 
-def _drawn(draw: Callable[[], Floats], wanted: Callable[[Floats], Mask]) -> Floats:
+def _drawn(draw: Callable[[], Floats], wanted: Callable[[Floats], Bools]) -> Floats:
     """Return the first EACH triangles that are wanted, (EACH, 3, 3)."""
     out = np.zeros((0, 3, 3))
     while len(out) < EACH:
@@ -55,10 +56,10 @@ def _drawn(draw: Callable[[], Floats], wanted: Callable[[Floats], Mask]) -> Floa
     return out[:EACH]
 
 
-def _triangles(rng: np.random.Generator) -> Floats:
+def _triangles(rng: Generator) -> Floats:
     """Return triangles of an ordinary shape, (EACH, 3, 3)."""
 
-    def ordinary(p: Floats) -> Mask:
+    def ordinary(p: Floats) -> Bools:
         longest = np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2).max(axis=1)
         high = np.linalg.norm(normals(p), axis=1) > 0.3 * longest**2
         return high & (longest > 0.5)
@@ -71,7 +72,7 @@ def _powers(base: float, exponents: Floats) -> Floats:
     return np.array([base**e for e in exponents.ravel().tolist()]).reshape(exponents.shape)
 
 
-def _towards(rng: np.random.Generator, p: Floats, s: Floats) -> Pairs:
+def _towards(rng: Generator, p: Floats, s: Floats) -> Pairs:
     """Return rays towards points of triangles' planes, from the front, at no small angle."""
     away = unit(normals(p)) + 0.6 * unit(rng.normal(size=(len(p), 3)))
     length, speed = rng.uniform(2, 6, (len(p), 1)), _powers(2, rng.uniform(-2, 2, (len(p), 1)))
@@ -79,19 +80,19 @@ def _towards(rng: np.random.Generator, p: Floats, s: Floats) -> Pairs:
     return point + length * away, -speed * away, p
 
 
-def _outside(rng: np.random.Generator) -> Floats:
+def _outside(rng: Generator) -> Floats:
     """Return barycentrics of which one or two are clearly negative."""
     s = rng.uniform(0.1, 1, (EACH, 3))
     which = np.arange(EACH)
     s[which, which % 3] *= -1
-    two = which % 2 == 1
-    s[which[two], (which[two] + 1) % 3] *= -1
+    two = which[1::2]
+    s[two, (two + 1) % 3] *= -1
     total = s.sum(axis=1, keepdims=True)
     s += np.where(s > 0, 1.5 - total, 0) / (s > 0).sum(axis=1, keepdims=True)
     return s / s.sum(axis=1, keepdims=True)
 
 
-def _elsewhere(rng: np.random.Generator) -> Pairs:
+def _elsewhere(rng: Generator) -> Pairs:
     """Return rays through points all around their triangles, half of them behind the origin."""
     s = rng.uniform(-1.5, 2, (EACH, 3))
     s[:, 0] = 1 - s[:, 1] - s[:, 2]
@@ -99,7 +100,7 @@ def _elsewhere(rng: np.random.Generator) -> Pairs:
     return np.tile(o, (2, 1)), np.concatenate((d, -d)), np.tile(p, (2, 1, 1))
 
 
-def _beside(rng: np.random.Generator) -> Floats:
+def _beside(rng: Generator) -> Floats:
     """Return barycentrics of which one is nearly 0, on either side."""
     s = rng.uniform(0.2, 0.8, (EACH, 3))
     which = np.arange(EACH)
@@ -111,7 +112,7 @@ def _beside(rng: np.random.Generator) -> Floats:
     return s
 
 
-def whole(rng: np.random.Generator) -> Pairs:
+def whole(rng: Generator) -> Pairs:
     """Return hits whose every product, sum and quotient is a float: legs are powers of two."""
     legs = 2.0 ** rng.integers(0, 4, (EACH, 2))
     s2 = rng.integers(1, 8, EACH) / 16
@@ -144,7 +145,7 @@ def _scaled(front: Pairs) -> Pairs:
     )
 
 
-def _parallel(rng: np.random.Generator) -> Pairs:
+def _parallel(rng: Generator) -> Pairs:
     """Return rays along the plane of a triangle of integers, beside it, over its middle."""
     p = _drawn(
         lambda: rng.integers(-9, 10, (EACH, 3, 3)).astype(float),
@@ -155,7 +156,7 @@ def _parallel(rng: np.random.Generator) -> Pairs:
     return p[:, 0] - 2 * d + np.sign(normals(p)), d, p
 
 
-def _empty(rng: np.random.Generator) -> Pairs:
+def _empty(rng: Generator) -> Pairs:
     """Return rays through the middle of triangles whose corners are in a line, or one point."""
     first = rng.integers(-9, 10, (EACH, 3)).astype(float)
     e = rng.integers(-4, 5, (EACH, 3)).astype(float)

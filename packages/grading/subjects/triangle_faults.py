@@ -12,10 +12,10 @@ from itertools import permutations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from reference_tracer.arrays import Bools
 
 from ..group_faults import FEW, FLOAT32, LOSSY, MOST, Found, Tests, always, never, single
 from ..mutations import mutations
-from ..programs import Mask
 from .triangle_cases import normals
 
 if TYPE_CHECKING:
@@ -94,10 +94,10 @@ def beside_edges(a: TableAnswers) -> Found:
 
 def parallel(a: TableAnswers) -> Found:
     """See whether a ray along the plane is said to meet it."""
-    hit = a.cases.among("parallel") & a.hit
-    if hit.sum() > 0.01 * a.cases.among("parallel").sum():
+    own = a.cases.among("parallel")
+    if a.hit[own].mean() > 0.01:
         text = "rays that are parallel to the triangle's plane hit it: d . n = 0 is no hit"
-        yield "parallel", text, hit
+        yield "parallel", text, own & a.hit
 
 
 def of_t(a: TableAnswers) -> Found:
@@ -171,7 +171,7 @@ def order_and_scale(a: TableAnswers) -> Found:
             return
 
 
-def _fits(a: TableAnswers, share: str, explained: Mask) -> bool:
+def _fits(a: TableAnswers, share: str, explained: Bools) -> bool:
     """Whether a fault explains nearly all of the wrong numbers of ordinary hits."""
     ordinary = a.wrong_numbers(share) & a.cases.among(*ORDINARY)
     return bool(ordinary.any() and explained[ordinary].mean() > MOST)
