@@ -31,7 +31,6 @@ from .world import (
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region, Scene
-    from .settings import Settings
 
 # The error of camera-space coordinates and of rays, in eps (2 u) of the sum of their |terms|. A
 # rounding is half an eps: one for v - o, five for each dot product, three for a ray's direction,
@@ -57,7 +56,7 @@ class Plan:
     """The batches of a scene, each with the rows of pixels that it may cover.
 
     It holds for rays within `reach` pixels of their pixel's centre, and vertices rounded to
-    `dtype`. Pairs may take about `memory` bytes. An unproven method has its `settings` here.
+    `dtype`. Pairs may take about `memory` bytes.
     """
 
     scene: Scene
@@ -67,7 +66,6 @@ class Plan:
     batches: list[Batch]
     rows: list[tuple[int, int]]  # first and end
     refused: int  # how many triangles are not finite in world space
-    settings: Settings | None
     kept: list[_Bounded]  # of the first batches
 
 
@@ -160,13 +158,7 @@ def within(bounds: Integers, tile: Region) -> Integers:
     )
 
 
-def cull(
-    scene: Scene,
-    dtype: np.dtype[np.floating],
-    memory: int,
-    reach: float,
-    settings: Settings | None = None,
-) -> Work[Plan]:
+def cull(scene: Scene, dtype: np.dtype[np.floating], memory: int, reach: float) -> Work[Plan]:
     """Find the batches that are in view, and their rows."""
     found = []
     rows = []
@@ -184,7 +176,7 @@ def cull(
             found.append(batch)
             rows.append((int(y0[seen].min()), int(y1[seen].max())))
         yield None
-    return Plan(scene, dtype, memory, reach, found, rows, refused, settings, kept)
+    return Plan(scene, dtype, memory, reach, found, rows, refused, kept)
 
 
 def _bounds(scene: Scene, dtype: np.dtype[np.floating], reach: float, batch: Batch) -> _Bounded:

@@ -27,6 +27,7 @@ TURNED_39 = np.array([[13.0, -34.0, -14.0], [26.0, 19.0, -22.0], [26.0, -2.0, 29
 TURNED = TURNED_39 / 39
 
 COLORS = ((0.85, 0.45, 0.15, 1.0), (0.2, 0.5, 0.8, 1.0), (0.5, 0.75, 0.3, 1.0))
+NEAR = 4.0  # where a sheet begins, in depth
 MARGIN = 2  # lattice cells that a sheet reaches beyond the picture
 # Of a pixel: a lattice that is moved by this has no corner, edge or diagonal on a pixel's ray.
 BESIDE = (0.37, 0.19)
@@ -58,14 +59,13 @@ def camera(
 def sheet(
     view: Camera,
     step: int = 2,
-    near: float = 4.0,
     far: float = 5.0,
     beside: tuple[float, float] = (0.0, 0.0),
     around: bool = True,
 ) -> Mesh:
     """Return a rough surface before a camera, with a corner on the ray of every `step`-th pixel.
 
-    The corners are fl(o + t d), with t at random between `near` and `far`. As a straight line is
+    The corners are fl(o + t d), with t at random between NEAR and `far`. As a straight line is
     straight in a picture, the pixels between meet the edges; with a step of 2, all of them do.
     `beside` is how far the corners are from the rays, in pixels. The surface reaches beyond the
     picture. A fan behind a perspective camera closes it (`around`), so that a ray crosses it once.
@@ -78,10 +78,10 @@ def sheet(
     x, y = (v.ravel() for v in np.meshgrid(px, py))
     rays = camera_rays(view, x, y)
     rng = generator()
-    t = near * (far / near) ** rng.random(len(x))
+    t = NEAR * (far / NEAR) ** rng.random(len(x))
     points = rays.at(t).T
     triangles = lattice(columns, rows, rng.integers(0, 2, columns * rows))
-    behind = view.origin - 2 * near * view.forward if around else None
+    behind = view.origin - 2 * NEAR * view.forward if around else None
     return closed(points, triangles, lattice_rim(columns, rows), behind)
 
 

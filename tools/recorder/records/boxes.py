@@ -61,8 +61,7 @@ def _corners(v: Inputs) -> Kept:
     matrix = [v.stacked([v.one(f"m{i}{k}") for k in range(4)]) for i in range(3)]
     bounds = [v.vector(names).reshape(-1) for names in ("lx ly lz", "hx hy hz")]
     scene = SimpleNamespace(
-        meshes=[SimpleNamespace(bounds=v.stacked(bounds))],
-        instance_meshes=FIRST,
+        instance_bounds=[end[:, None] for end in bounds],
         instance_matrices=v.stacked(matrix),
     )
     corners, size = boxes._corners(scene)
