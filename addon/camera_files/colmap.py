@@ -63,7 +63,7 @@ def rotation(q: Floats) -> Floats:
     SceneError
         If it is zero.
     """
-    length = float(np.linalg.norm(q))
+    length = np.linalg.norm(q)
     if not length:
         raise SceneError(f"{IMAGES}: a quaternion is zero")
     return frame.of_quaternion(*(q / length))
@@ -145,7 +145,7 @@ def _camera(words: list[str], where: str) -> tuple[str, _Lens]:
             f"{where}: {model} has lens distortion, which is not modelled: "
             "`colmap image_undistorter` writes pictures and cameras without"
         )
-    k = frame.matrix_of(*(float(params[n]) for n in places))
+    k = frame.matrix_of(*params[[*places]])
     return words[0], (k, (int(values[0]), int(values[1])))
 
 

@@ -97,7 +97,7 @@ def rotation_vector(r: Floats) -> Floats:
     """
     w, x, y, z = quaternion(r)
     along = np.array((x, y, z))
-    size = float(np.linalg.norm(along))
+    size = np.linalg.norm(along)
     if w < _HALF_TURN and along[np.argmax(np.abs(along))] < 0:
         along = -along
     return along * (2 * np.arctan2(size, w) / size if size else 2.0)

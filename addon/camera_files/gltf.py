@@ -103,7 +103,7 @@ def _view(own: Content, label: str, name: str, world: Floats, source: Source) ->
         aspect: float | None = across / up
     else:
         _number(lens, label, "yfov")
-        up = float(np.tan(radians_of(lens, "yfov", f"{label}: ") / 2))
+        up = np.tan(radians_of(lens, "yfov", f"{label}: ") / 2)
         aspect = _number(lens, label, "aspectRatio") if "aspectRatio" in lens else None
     size = _size(own, label, aspect, source)
     across = up * size[0] / size[1]
@@ -121,7 +121,7 @@ def _view(own: Content, label: str, name: str, world: Floats, source: Source) ->
         size,
         name,
         ORTHOGRAPHIC if parallel else PERSPECTIVE,
-        (_number(lens, label, "znear"), float(far)),
+        (_number(lens, label, "znear"), far),
     )
 
 

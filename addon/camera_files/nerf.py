@@ -126,7 +126,7 @@ def _focal_lengths(body: Content, where: str, size: Size) -> tuple[float, float]
         else:
             found.append(0.0)
             continue
-        found.append(n / 2 / float(np.tan(angle / 2)))
+        found.append(n / 2 / np.tan(angle / 2))
     x, y = found
     if not (x or y):
         raise SceneError(f"{where}fl_x and camera_angle_x are missing: it says no focal length")

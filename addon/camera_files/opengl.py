@@ -65,7 +65,7 @@ def _view(body: Content, where: str, source: Source) -> View:
     refuse_lens(body, where)
     p = numbers(body, "projection", where, (4, 4))
     world = frame.inverse(numbers(body, "view", where, (4, 4)))
-    parallel = bool(np.array_equal(p[3], (0, 0, 0, 1)))
+    parallel = np.array_equal(p[3], (0, 0, 0, 1))
     other = 2 if parallel else 3  # the column that has to be 0
     if not parallel and not np.array_equal(p[3], (0, 0, -1, 0)):
         raise SceneError(f"{where}projection must end in the row 0 0 -1 0, or 0 0 0 1")
@@ -100,7 +100,7 @@ def _clip(p: Floats, parallel: bool, where: str) -> Clip:
             f"{where}projection has its near plane at {near:g} and its far plane at {far:g}: "
             "depths from -1 to 1 are read, as OpenGL has them"
         )
-    return float(near), float(far)
+    return near, far
 
 
 OPENGL = Convention(

@@ -79,7 +79,7 @@ class Field:
         self._gone |= {name for name, runner in peers.items() if runner.failed}
         if self._hits is not None:
             ours = certified.triangle_index[self._rays.rows].ravel()
-            peers["embreex_trace"].facts["differs"] = float(np.mean(self._hits != ours))
+            peers["embreex_trace"].facts["differs"] = np.mean(self._hits != ours)
 
     def _of_embreex(self, camera: Camera) -> Runners:
         is_new = self._embreex is None

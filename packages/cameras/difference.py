@@ -88,12 +88,12 @@ def measured(own: Camera, other: Camera) -> CameraDifference:
     points = known_points(own)
     x, y, depth = film_of(own, points)
     far = apart((x, y, depth), film_of(other, points))
-    worst = int(np.argmax(far))
+    worst = np.argmax(far)
     return CameraDifference(
-        float(far[worst]),
+        far[worst],
         float(np.median(far)),
-        (float(x[worst]), float(y[worst])),
-        float(depth[worst]),
+        (x[worst], y[worst]),
+        depth[worst],
         max(CLOSE, certify(own, points, np.stack((x, y))).allowed),
     )
 

@@ -121,12 +121,11 @@ def _view(sensor: ElementTree.Element) -> View:
         raise SceneError(f"its sensor is of the type '{kind}', none of {', '.join(_KINDS)}")
     own, pixels = _values(sensor), _values(sensor.iterfind("film/*"))
     # What Mitsuba takes where the file says none.
-    whole = tuple(_number(pixels, key, n) for key, n in (("width", 768), ("height", 576)))
+    width, height = _number(pixels, "width", 768), _number(pixels, "height", 576)
     left, top = (_number(pixels, f"crop_offset_{axis}", 0) for axis in "xy")
-    crop = _number(pixels, "crop_width", whole[0]), _number(pixels, "crop_height", whole[1])
-    if not all(n == int(n) and n >= 1 for n in (*whole, *crop)):
+    crop = _number(pixels, "crop_width", width), _number(pixels, "crop_height", height)
+    if not all(n == int(n) and n >= 1 for n in (width, height, *crop)):
         raise SceneError("its film's width and height must be integers of at least 1")
-    width, height = whole
     world: Floats = np.eye(4)
     for child in sensor:
         if child.tag == "animation":
@@ -156,16 +155,16 @@ def _half_tangent(own: Mapping[str, str], width: float, height: float) -> float:
         fov = _number(own, "fov")
         if not 0 < fov < 180:
             raise SceneError(f"its fov is {fov}, which must be between 0 and 180 degrees")
-        half = float(np.tan(np.radians(fov) / 2))
+        half = np.tan(np.radians(fov) / 2)
     else:  # of a film of 36 x 24 mm, along its diagonal
         axis = "diagonal"
         length = own.get("focal_length", "50mm").removesuffix("mm")
-        half = float(np.hypot(36, 24)) / 2 / float(_floats(length, 1, "focal_length")[0])
+        half = np.hypot(36, 24) / 2 / _floats(length, 1, "focal_length")[0]
     if axis == "smaller":
         axis = "y" if aspect > 1 else "x"
     elif axis == "larger":
         axis = "x" if aspect > 1 else "y"
-    factors = {"x": 1.0, "y": aspect, "diagonal": aspect / float(np.hypot(aspect, 1))}
+    factors = {"x": 1.0, "y": aspect, "diagonal": aspect / np.hypot(aspect, 1)}
     if axis not in factors:
         raise SceneError(f"its fov_axis is '{axis}', none of {', '.join(factors)}, smaller, larger")
     return half * factors[axis]

@@ -92,7 +92,7 @@ def _tracing(
         count = len(parts(band))
         for number in range(count):
             for part, at in islice(todo, AHEAD * threads - len(ahead)):
-                corners = tuple(map(int, vars(part).values()))
+                corners = tuple(vars(part).values())
                 ahead.append(cluster.ask(tasks.trace, *given, corners, *at))
             seen, took = yield from cluster.answer(ahead.popleft())
             count_in(statistics, took)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -63,16 +64,21 @@ def _circle(count: int) -> Floats:
     return np.column_stack((np.cos(turns), np.sin(turns)))
 
 
+def _walls(count: int) -> list[Polygon]:
+    """Return quads around a prism, whose lower corners are the first `count`."""
+    ends = [(k, (k + 1) % count) for k in range(count)]
+    return [(a, b, b + count, a + count) for a, b in ends]
+
+
 @cache
 def bracket() -> Shape:
     """Return an L with a slanted top, 2 x 1.5 x 0.9 m: no mirroring leaves it as it is."""
     profile = np.array([(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 1.5), (0, 1.5)])
     low = np.column_stack((profile, np.zeros(6)))
     high = np.column_stack((profile, 0.4 + 0.25 * profile[:, 0]))
-    sides = [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
     top = [(6, 7, 8, 9), (6, 9, 10, 11)]
     bottom = [(3, 2, 1, 0), (5, 4, 3, 0)]
-    return _shape("bracket", np.concatenate((low, high)), sides + top + bottom)
+    return _shape("bracket", np.concatenate((low, high)), [*_walls(6), *top, *bottom])
 
 
 @cache
@@ -94,16 +100,14 @@ def ball() -> Shape:
     ]
     vertices = np.concatenate(([(0, 0, 1)], *points, [(0, 0, -1)]))
     last = len(vertices) - 1
+    meridians = np.arange(1, last).reshape(-1, around).T.tolist()
     faces: list[Polygon] = []
-    for k in range(around):
-        n = (k + 1) % around
-        faces.append((0, 1 + k, 1 + n))
-        for r in range(rings - 2):
-            a, b = 1 + r * around, 1 + (r + 1) * around
+    for here, next_ in zip(meridians, [*meridians[1:], meridians[0]], strict=True):
+        faces.append((0, here[0], next_[0]))
+        for (a, b), (c, d) in pairwise(zip(here, next_, strict=True)):
             # Two triangles: in float32 the four corners are flat only nearly.
-            faces += [(a + k, b + k, b + n), (a + k, b + n, a + n)]
-        a = 1 + (rings - 2) * around
-        faces.append((a + k, last, a + n))
+            faces += [(a, c, d), (a, d, b)]
+        faces.append((here[-1], last, next_[-1]))
     return _shape("ball", vertices, faces)
 
 
@@ -113,9 +117,8 @@ def prism() -> Shape:
     sides = 6
     ring = _circle(sides)
     ends = [np.column_stack((ring, np.full(sides, z))) for z in (-1, 1)]
-    walls = [(k, (k + 1) % sides, (k + 1) % sides + sides, k + sides) for k in range(sides)]
     caps = [tuple(range(sides, 2 * sides)), tuple(range(sides))[::-1]]
-    return _shape("prism", np.concatenate(ends), [*walls, *caps])
+    return _shape("prism", np.concatenate(ends), [*_walls(sides), *caps])
 
 
 @cache

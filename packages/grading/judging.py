@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 import numpy as np
@@ -55,7 +55,6 @@ class Judgement:
     edges: SharedEdges | None = None  # None: it failed before
     scenes: list[str] = field(default_factory=list)  # the names of all
     looks: list[Look] = field(default_factory=list)  # of those that were finished
-    examples: dict[str, list[WrongCase]] = field(default_factory=dict)  # by the scene's name
     errors: list[tuple[str, StudentError]] = field(default_factory=list)  # where, and what
     seconds: float = 0.0  # that the function itself has taken
     printed: int = 0  # bytes
@@ -141,7 +140,7 @@ def judge(
         for k, scene in enumerate(scenes):
             share = 1 / len(scenes)
             yield from scaled(_on_scene(out, student, scene), k * share, share)
-        out.faults = [*out.faults, *raising(student)]
+        out.faults += raising(student)
         if not (out.faults or out.errors or all(t and t.all_right for t in out.tallies)):
             out.faults.append(in_scenes(out.looks))
         out.seconds = student.seconds
@@ -177,7 +176,8 @@ def _on_cases(out: Judgement, student: Submission, cases: TableCases) -> None:
     answers = cases.answers(rows)
     out.faults, out.alike = find_faults(answers)
     if depends := dependence(answers, student.ask):
-        out.faults, out.alike = [*out.faults, *depends], None
+        out.faults += depends
+        out.alike = None
     if cases.subject is TRIANGLE:
         out.edges = try_edges(student.ask)
     else:
@@ -202,8 +202,7 @@ def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[N
 
     try:
         found = yield from look(scene, ask, lambda: student.seconds)
-        out.examples[scene.name] = find_examples(found, student.ask)
-        out.looks.append(found)
+        out.looks.append(replace(found, examples=find_examples(found, student.ask)))
         if out.alike:
             again = iter(mended)
             out.mended.append(result_of(look(scene, lambda *_: next(again))).tally)

@@ -117,7 +117,7 @@ def _student(j: Judgement) -> str:
         parts.append(_table(names, [tuple(map(escape, row)) for row in cells]))
         parts += [f"<p>{note}.</p>" for note in notes(rows)]
     parts += [_wrong_case(j.subject, case) for case in j.wrong]
-    parts += [_scene(j.subject, found, j.examples[found.judged.name]) for found in j.looks]
+    parts += [_scene(j.subject, found) for found in j.looks]
     return "\n".join(parts)
 
 
@@ -149,7 +149,7 @@ def _listed(numbers: Sequence[float | None]) -> str:
     return ", ".join("no hit" if v is None else repr(v) for v in numbers)
 
 
-def _scene(subject: Subject, found: Look, wrong: Sequence[WrongCase]) -> str:
+def _scene(subject: Subject, found: Look) -> str:
     judged = found.judged
     pictures = (
         ("the student’s", to_display(found.color)),
@@ -171,7 +171,7 @@ def _scene(subject: Subject, found: Look, wrong: Sequence[WrongCase]) -> str:
     parts = [f"<h3>{escape(judged.name)}</h3>"]
     parts.append(f'<div class="pictures">{figures}</div>')
     parts.append(f"<p>{w} × {h} pixels{every}. {legend or 'All are right.'}</p>")
-    parts += [_wrong_case(subject, case, explain(judged, case)) for case in wrong]
+    parts += [_wrong_case(subject, case, explain(judged, case)) for case in found.examples]
     return "\n".join(parts)
 
 

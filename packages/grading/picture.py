@@ -23,6 +23,7 @@ from .judged_scene import JudgedScene, arrays
 from .known import Ask, known
 from .subjects.triangle import TRIANGLE
 from .tally import Tally
+from .wrong_case import WrongCase
 
 
 class Mark(IntEnum):
@@ -56,6 +57,7 @@ class Look:
     lost: int  # pixels that see another surface than they should, those on the boundary included
     tally: Tally
     seconds: float
+    examples: Sequence[WrongCase] = ()  # some of the wrong pixels
 
     @property
     def counts(self) -> dict[str, int]:
@@ -81,8 +83,8 @@ def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> W
         If the function fails.
     """
     began, count = clock(), len(judged.t)
-    reported = np.zeros(count, bool)  # the true triangle is said to be hit
-    raised = np.zeros(count, bool)
+    # The true triangle is said to be hit; a pair raises.
+    reported, raised = np.zeros((2, count), bool)
     hits = judged.planes.take(np.arange(count))
     for done, some in enumerate(judged.pairs):
         t, s = ask(*arrays(judged.rays, some.pixel, some.corners))
@@ -137,8 +139,8 @@ def _judged(
     parts = {"surface": ~wrong, "t": right & right_t, "barycentrics": right & right_s}
     tally = Tally.of(on_triangle, judged.boundary & ~raised, parts, TRIANGLE.weights)
     color = shading.colors(judged.scene, hits).reshape(judged.color.shape)
-    h, w = judged.shape
-    return Look(judged, hits, color, mark.reshape(h, w), int(wrong.sum()), tally, seconds)
+    mark = mark.reshape(judged.shape)
+    return Look(judged, hits, color, mark, int(wrong.sum()), tally, seconds)
 
 
 def _held(judged: JudgedScene, hits: Hits) -> tuple[Bools, Bools, Bools]:

@@ -58,11 +58,11 @@ def student(j: Judgement) -> Student:
         "shared_edges": asdict(j.edges) if j.edges else None,
         "checks": j.checks.to_dict() if j.checks else None,
         "wrong_cases": [asdict(case) for case in j.wrong],
-        "scenes": [_scene(j, found) for found in j.looks],
+        "scenes": [_scene(found) for found in j.looks],
     }
 
 
-def _scene(j: Judgement, found: Look) -> dict[str, Any]:
+def _scene(found: Look) -> dict[str, Any]:
     judged = found.judged
     height, width = judged.shape
     return {
@@ -75,5 +75,5 @@ def _scene(j: Judgement, found: Look) -> dict[str, Any]:
         "seconds": round(found.seconds, 6),
         "pixels": found.counts,
         "tally": found.tally.to_dict(),
-        "examples": [asdict(e) | {"explain": explain(judged, e)} for e in j.examples[judged.name]],
+        "examples": [asdict(e) | {"explain": explain(judged, e)} for e in found.examples],
     }

@@ -51,18 +51,14 @@ class Student(Submission):
         self.path = path.resolve()
 
     def _answered(self, question: Floats) -> Floats:
-        count = len(question)
         with self._watched() as (to, back):
-            head = {"count": count, "seconds": self._left}
+            head = {"count": len(question), "seconds": self._left}
             to.write(json.dumps(head).encode() + b"\n")
             to.write(question.tobytes())
             to.flush()
-            error = self._answer(back)
-            size = 0 if error else 8 * count * self.form.numbers
-            found = np.frombuffer(_read(back, size)).reshape(-1, self.form.numbers)
-        if error:
-            raise error
-        return found
+            self._hear(back)
+            numbers = _read(back, 8 * len(question) * self.form.numbers)
+            return np.frombuffer(numbers).reshape(-1, self.form.numbers)
 
     def end(self) -> None:
         """End the process, and what it has started, but for what has a session of its own."""
@@ -71,17 +67,15 @@ class Student(Submission):
             return
         kill(process)
         process.wait()
-        assert process.stdin and process.stdout and process.stderr
+        assert process.stdin and process.stdout
         for stream in (process.stdin, process.stdout):
             with suppress(OSError):
                 stream.close()
         self._reader.join(1.0)
 
     def _begin(self) -> None:
-        if self._process is None:
-            self._start()
-
-    def _start(self) -> None:
+        if self._process:
+            return
         words = [sys.executable, "-P", str(_CHILD), str(self.path), self.form.to_json()]
         libraries = Path(sys.base_prefix), Path(sys.prefix), Path(np.__file__).parents[1]
         process = subprocess.Popen(
@@ -95,14 +89,10 @@ class Student(Submission):
             **limited(self.limits.memory),
         )
         self._runs(process)
-        self._reader = threading.Thread(target=self._listen, args=(process.stderr,))
-        self._reader.daemon = True
+        self._reader = threading.Thread(target=self._listen, args=(process.stderr,), daemon=True)
         self._reader.start()
         with self._watched() as (_, back):
-            error = self._answer(back)
-        if error:
-            self.end()
-            raise error
+            self._hear(back)
 
     def _listen(self, stream: IO[bytes]) -> None:
         """Read all that is printed, so that nobody waits for it, and keep the first of it."""
@@ -130,6 +120,9 @@ class Student(Submission):
         try:
             yield process.stdin, process.stdout
             well = True
+        except StudentError as error:
+            well = error.kind == self.raising  # it may be asked again
+            raise
         except (EOFError, OSError) as error:
             code = process.wait()
             if late.is_set():
@@ -144,27 +137,26 @@ class Student(Submission):
             if not well:
                 self.end()
 
-    def _answer(self, back: IO[bytes]) -> StudentError | None:
-        """Note the seconds that an answer has taken, and return the error that it is, if any.
+    def _hear(self, back: IO[bytes]) -> None:
+        """Read the head of an answer, and note the seconds that it has taken.
 
         Raises
         ------
         StudentError
-            If it is another than that of what may be asked again.
+            If the answer is one.
         """
         line = back.readline(_LONGEST)
         if not line.endswith(b"\n") and len(line) < _LONGEST:
             raise EOFError
         try:
-            seconds, found = parsed(line, self.limits.memory)
+            seconds, wrong = parsed(line, self.limits.memory)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             text = "its process answered something that is no answer: does the file write to other"
             text += " streams than the standard ones, or change numpy or json?"
             raise StudentError("ended", text) from error
-        if found and found.kind != self.raising:
-            raise found
         self.seconds += seconds
-        return found
+        if wrong:
+            raise wrong
 
 
 def _read(stream: IO[bytes], size: int) -> bytes:

@@ -117,10 +117,7 @@ def _wrong_pixels(j: Judgement) -> list[str]:
         ]
         if counts:
             out += ["", f"{found.judged.name}: {'; '.join(counts)}"]
-            out += [
-                f"  {named(e)}: {explain(found.judged, e)}"
-                for e in _one_each(j.examples[found.judged.name])
-            ]
+            out += [f"  {named(e)}: {explain(found.judged, e)}" for e in _one_each(found.examples)]
     return out
 
 

@@ -46,7 +46,7 @@ def truth(program: Program, letters: Letters, whole: Bools) -> tuple[Floats, Flo
     count = letters.shape[0]
     numbers = [n for part in program.parts for label in part.labels for n in np.ravel(names[label])]
     right, error = (
-        np.stack([np.broadcast_to(np.asarray(getattr(n, kind)), count) for n in numbers], axis=1)
+        np.stack([np.broadcast_to(getattr(n, kind), count) for n in numbers], axis=1)
         for kind in ("value", "error")
     )
     allowed = ROUNDINGS * U * error

@@ -131,7 +131,7 @@ def _quads(faces: Places, at: Floats, normal: Floats, rounding: Floats) -> Array
     flat = dot(normal, normal) <= bound  # both halves cancel one another
     wrong = ((turning < -bound[:, None]).sum(axis=1) > 1) | (flat & (first < 0) & (second < 0))
     if wrong.any():
-        raise _crosses(faces[int(np.argmax(wrong))] + 1)
+        raise _crosses(faces[np.argmax(wrong)] + 1)
     return np.where((first < 0)[:, None, None], [[0, 1, 3], [1, 2, 3]], [[0, 1, 2], [0, 2, 3]])
 
 
@@ -204,10 +204,10 @@ def _by_library(face: int, at: Floats, normal: Floats, rounding: float) -> Array
     areas = (q - p)[0] * (r - p)[1] - (q - p)[1] * (r - p)[0]
     if areas.sum() < 0:  # the library winds all triangles one way, and says not which
         found, areas = found[:, ::-1], -areas
-    own = float((seen[0] * np.roll(seen[1], -1) - np.roll(seen[0], -1) * seen[1]).sum())
+    own = (seen[0] * np.roll(seen[1], -1) - np.roll(seen[0], -1) * seen[1]).sum()
     # What rounding does to a doubled area: ours, and the file's of corners whose sides are below 3.
     bound = _AREA + 8 * rounding
-    far = at[:, int(np.argmax(np.abs(at).max(axis=0)))]
+    far = at[:, np.argmax(np.abs(at).max(axis=0))]
     is_line = bool(np.abs(cross(at, far[:, None])).max() <= bound)
     if (areas < -bound).any() or abs(areas.sum() - own) > count * bound or (own <= 0) > is_line:
         raise _crosses(face)
@@ -242,8 +242,8 @@ class _Bends:
         bent = share > rounding
         if bent.any():
             self.count += int(bent.sum())
-            self.metres = max(self.metres, float(np.max((share * size)[bent])))
-            self.share = max(self.share, float(np.max(share[bent])))
+            self.metres = max(self.metres, np.max((share * size)[bent]))
+            self.share = max(self.share, np.max(share[bent]))
         return np.nan_to_num(rounding, nan=_SEEN)
 
     def __iter__(self) -> Iterator[str]:

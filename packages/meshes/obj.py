@@ -80,10 +80,10 @@ class _Reading:
             in_lines(floats, self.numbers, threes, self.vertex_lines).reshape(-1, 3),
             self._indices(),
             np.array(self.sizes, np.intp),
-            list(names),
+            names,
             np.repeat([names[name] for name in named], faces),
-            tuple(self._notes()),
-            tuple(self._missing()),
+            self._notes(),
+            self._missing(),
         )
 
     def _vertex(self, line: int, words: list[bytes]) -> None:
@@ -109,7 +109,7 @@ class _Reading:
         above, sizes = (np.array(own, np.intp) for own in (self.above, self.sizes))
         found = np.where(found < 0, np.repeat(above, sizes) + 1 + found, found)
         if len(bad := np.flatnonzero((found < 1) | (found > len(self.vertex_lines)))):
-            face = int(np.searchsorted(np.cumsum(sizes), bad[0], "right"))
+            face = np.searchsorted(np.cumsum(sizes), bad[0], "right")
             names = f"line {self.face_lines[face]} names vertex {found[bad[0]]}"
             raise SceneError(f"{names}, but there are {len(self.vertex_lines)}")
         return found - 1

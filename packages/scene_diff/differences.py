@@ -118,7 +118,7 @@ def _alike(first: Plane, second: Plane) -> bool:
     """Return whether two planes are the same, with the same side in front."""
     size = float(max(np.abs(first.point).max(), np.abs(second.point).max()))
     n, m = (p.normal / np.sqrt((p.normal * p.normal).sum()) for p in (first, second))
-    off = abs(float(n @ (second.point - first.point)))
+    off = abs(n @ (second.point - first.point))
     return float(np.abs(n - m).max()) <= ROUNDINGS and off <= 2 * (ROUNDINGS * size + DIGITS)
 
 
@@ -228,7 +228,7 @@ def _of_object(
 
 def _turned_over(name: str, found: Matched) -> Iterator[Difference]:
     """Yield that triangles have their other side in front."""
-    turned = int(((found.same == 0) & (found.turned > 0)).sum())
+    turned = ((found.same == 0) & (found.turned > 0)).sum()
     if turned:
         count = len(found.same)
         which = "all normals" if turned == count else f"the normals of {turned:,} triangles"
@@ -243,7 +243,7 @@ def _of_triangles(name: str, own: Floats, other: Floats, tolerance: float) -> Di
             say = f"'{name}' has {counts}: as with {abs(level)} {'more' if level > 0 else 'fewer'}"
             return _of_fault("subdivision", name, f"{say} levels of subdivision")
     points = own.reshape(-1, 3), other.reshape(-1, 3)
-    same = int(matched(own, other, tolerance).there.sum())
+    same = matched(own, other, tolerance).there.sum()
     if len(other) < len(own) and same == len(other):
         return _of_fault(
             "triangles_missing", name, f"'{name}' lacks {len(own) - same:,} of its triangles"

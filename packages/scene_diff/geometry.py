@@ -36,7 +36,7 @@ class Shape:
 
     def moved_by(self, move: Move) -> Shape:
         """Return the object, moved."""
-        size, by = float(np.abs(move.axes).sum(axis=1).max()), float(np.abs(move.by).max())
+        size, by = np.abs(move.axes).sum(axis=1).max(), np.abs(move.by).max()
         return Shape(move.of(self.triangles), size * self.reach + by)
 
     @property

@@ -115,6 +115,6 @@ class _Body(NamedTuple):
 def _body(triangles: Floats) -> _Body:
     centre = triangles.mean(axis=(0, 1))
     corners = (triangles - centre).reshape(-1, 3)
-    spread = float(np.sqrt((corners**2).mean()))
+    spread = np.sqrt((corners**2).mean())
     unit = corners / (spread or 1.0)
     return _Body(centre, corners, spread, unit.T @ unit / len(unit))

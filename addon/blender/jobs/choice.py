@@ -40,11 +40,9 @@ def chosen(choice: Choice) -> Iterator[None]:
     scene = _named("scene", choice.scene_name, bpy.data.scenes) or context.scene
     own = context.view_layer if scene == context.scene else scene.view_layers[0]
     layer = _named("view layer", choice.view_layer, scene.view_layers) or own
-    cameras = [o for o in bpy.data.objects if o.type == "CAMERA"]
-    cameras.sort(
-        key=lambda o: o.library is None
-    )  # of one name, the file's own comes last: it counts
-    camera = _named("camera", choice.camera, cameras) or scene.camera
+    cameras = (o for o in bpy.data.objects if o.type == "CAMERA")
+    own_last = sorted(cameras, key=lambda o: o.library is None)  # of one name, the last one counts
+    camera = _named("camera", choice.camera, own_last) or scene.camera
     with context.temp_override(scene=scene, view_layer=layer):
         if choice.frame is not None:
             bake_bodies(scene, choice.frame)

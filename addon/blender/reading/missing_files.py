@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import bpy
-from bpy.types import ID, Library, Object
+from bpy.types import ID, Library
 
 from ..versions import bake_folder
 
@@ -42,10 +42,13 @@ def lost_files(mode: str, frame: int) -> Iterator[Lost]:
         The scene's.
     """
     yield from _of_blocks(frame)
+    flag = "show_viewport" if mode == "VIEWPORT" else "show_render"
     for obj in bpy.data.objects:
-        for of, kind, path in _of_object(obj, mode):
-            if path and not exists(obj, path):
-                yield Lost(obj, kind, path, of)
+        for modifier in (m for m in obj.modifiers if getattr(m, flag)):
+            kind = "file" if modifier.type == "MESH_CACHE" else "folder"
+            for path in _paths(modifier):
+                if path and not exists(obj, path):
+                    yield Lost(obj, kind, path, f"modifier '{modifier.name}' of '{obj.name}'")
     for tree in bpy.data.node_groups:
         for node in tree.nodes if tree.type == "GEOMETRY" else ():
             path = _imported(node)
@@ -97,34 +100,25 @@ def _absolute(path: str, library: Library) -> str:
     return bpy.path.abspath(path.replace("\\", "/"), start=start)
 
 
-def _of_object(obj: Object, mode: str) -> Iterator[tuple[str, str, str]]:
-    """Yield what of an object reads files, what kind they are, and where they should be."""
-    for modifier in obj.modifiers:
-        if modifier.show_viewport if mode == "VIEWPORT" else modifier.show_render:
-            for kind, path in _of_modifier(modifier):
-                yield f"modifier '{modifier.name}' of '{obj.name}'", kind, path
-
-
-def _of_modifier(modifier: Any) -> Iterator[tuple[str, str]]:
+def _paths(modifier: Any) -> Iterator[str]:
+    """Yield the file that a modifier reads, or the folders of its caches."""
     kind = modifier.type
-    if kind == "MESH_CACHE":
-        yield "file", modifier.filepath
-    elif kind == "OCEAN" and modifier.is_cached:
-        yield "folder", modifier.filepath
+    if kind == "MESH_CACHE" or (kind == "OCEAN" and modifier.is_cached):
+        yield modifier.filepath
     elif kind == "FLUID" and modifier.fluid_type == "DOMAIN":
         domain = modifier.domain_settings
         if domain.has_cache_baked_any:
-            yield "folder", domain.cache_directory
+            yield domain.cache_directory
     elif kind in ("CLOTH", "SOFT_BODY"):
-        yield "folder", _baked(modifier.point_cache)
+        yield _baked(modifier.point_cache)
     elif kind == "PARTICLE_SYSTEM":
-        yield "folder", _baked(modifier.particle_system.point_cache)
+        yield _baked(modifier.particle_system.point_cache)
     elif kind == "DYNAMIC_PAINT" and modifier.canvas_settings:
         for surface in modifier.canvas_settings.canvas_surfaces:
-            yield "folder", _baked(surface.point_cache)
+            yield _baked(surface.point_cache)
     elif kind == "NODES":
         for bake in modifier.bakes:
-            yield "folder", bake_folder(modifier, bake)
+            yield bake_folder(modifier, bake)
 
 
 def _baked(cache: Any) -> str:

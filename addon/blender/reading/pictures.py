@@ -6,7 +6,7 @@ import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -136,8 +136,8 @@ def render_result(scene: Scene, layer: str) -> Iterator[Held]:
             engine = "cycles" if _OF_CYCLES.search(made) else "other"
             rendered_by = engine if engine == "cycles" else engine_of_result(scene)
             remarks = tuple(_remarks(scene, layer, is_rendered))
-            held = Held(Path(image.name), width, height, loaded, engine, remarks)
-            yield replace(held, rendered_by=rendered_by if is_rendered else "")
+            known = rendered_by if is_rendered else ""
+            yield Held(Path(image.name), width, height, loaded, engine, remarks, known)
         finally:
             bpy.data.images.remove(loaded)
 

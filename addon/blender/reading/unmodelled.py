@@ -51,8 +51,9 @@ def _reaches(obj: Object) -> Iterator[float]:
         if system.settings.type == "HAIR":
             yield system.settings.hair_length
     if obj.type in ("GREASEPENCIL", "GPENCIL"):
-        for frame in (frame for layer in obj.data.layers for frame in layer.frames):
-            yield from radii(obj, frame)
+        for layer in obj.data.layers:
+            for frame in layer.frames:
+                yield from radii(obj, frame)
 
 
 def unfilled(obj: Object, holder: Object) -> bool:

@@ -99,16 +99,21 @@ def _picture(rng: Generator, name: str) -> Arrays:
     turn = 2 * np.pi * rng.random(OBJECTS)
     far = order == OBJECTS - 1
     radius[far] = 20 * window.max()
-    edge = np.stack((np.cos(turn + np.pi / 3), np.sin(turn + np.pi / 3)), axis=1)
+    edge = _at(turn + np.pi / 3)
     middle[far] = -radius[far] / 2 * edge[far]
     around = turn[:, None] + 2 * np.pi / 3 * np.arange(3) * rng.choice((-1, 1), (OBJECTS, 1))
-    flat = np.stack((np.cos(around), np.sin(around)), axis=2) * radius[:, None, None]
+    flat = _at(around) * radius[:, None, None]
     flat += middle[:, None] + shifts[0] * width
     depths = depth[:, None] + rng.uniform(-0.4, 0.4, (OBJECTS, 3))
     flat *= 1 if orthographic[0] else np.abs(depths)[..., None]
     local = np.concatenate((flat, -depths[..., None]), axis=2)
     triangles = local @ matrix[0, :, :3].T + matrix[0, :, 3]
     return (resolution[None], orthographic, lens, sensor, scale, shifts, matrix, triangles[None])
+
+
+def _at(angles: Floats) -> Floats:
+    """Return points of the circle of radius 1, (..., 2)."""
+    return np.stack((np.cos(angles), np.sin(angles)), axis=-1)
 
 
 PICTURE = Subject(

@@ -85,8 +85,8 @@ def _outside(rng: Generator) -> Floats:
     s = rng.uniform(0.1, 1, (EACH, 3))
     which = np.arange(EACH)
     s[which, which % 3] *= -1
-    two = which % 2 == 1
-    s[which[two], (which[two] + 1) % 3] *= -1
+    two = which[1::2]
+    s[two, (two + 1) % 3] *= -1
     total = s.sum(axis=1, keepdims=True)
     s += np.where(s > 0, 1.5 - total, 0) / (s > 0).sum(axis=1, keepdims=True)
     return s / s.sum(axis=1, keepdims=True)
