@@ -178,7 +178,7 @@ def test_the_button_writes_what_the_command_does(name, written, scene, tmp_path,
 def test_the_file_takes_the_ending_of_its_convention(convention, typed, file, tmp_path):
     """A folder has none; what is no convention's ending is part of the name."""
     button = SimpleNamespace(convention=convention, filepath=str(tmp_path / typed))
-    is_other = REFERENCE_TRACER_OT_export_camera.check(button, bpy.context)
+    is_other = REFERENCE_TRACER_OT_export_camera.check(button, None)
     assert (button.filepath, is_other) == (str(tmp_path / file), typed != file)
 
 

@@ -110,8 +110,8 @@ def render_result(scene: Scene, layer: str) -> Iterator[Held]:
     image = result_image()
     settings: Any = scene.render.image_settings
     kept = [(settings, name) for name in _SETTINGS]
-    if settings.color_management != "OVERRIDE":  # else its own space is not used
-        kept.pop()
+    if settings.color_management != "OVERRIDE":
+        kept.pop()  # its own space, which is not used then
     with tempfile.TemporaryDirectory() as folder, values_restored(kept):
         path = Path(folder) / "Render Result.exr"
         # Its own colour management stays: switching that off and on has Blender overwrite it. The

@@ -79,7 +79,7 @@ def _with_menu(kind: type[Menu]) -> Callable[[Menu, Context], None]:
 def _draw_in_header(header: Header, context: Any) -> None:
     if chosen(context.space_data):
         draw_in_header(header.layout, context)
-    draw_switch(header.layout.row(align=True), context.space_data)
+        draw_switch(header.layout.row(align=True), context.space_data)
 
 
 MENUS = {

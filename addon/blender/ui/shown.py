@@ -145,7 +145,7 @@ def _spaces() -> list[SpaceImageEditor]:
 def draw_switch(layout: UILayout, space: SpaceImageEditor) -> None:
     """Draw the switch of a space that shows an image of a comparison."""
     now = chosen(space)
-    there = (choice for choice in _CHOICES if now and blocks.ours(IMAGES[choice[0]]))
+    there = (choice for choice in _CHOICES if blocks.ours(IMAGES[choice[0]]))
     for key, label, _ in there:
         button = layout.operator(
             REFERENCE_TRACER_OT_show_image.bl_idname, text=label, depress=key == now
