@@ -237,8 +237,10 @@ COMMAND = {
         "    return AGREE\n",
     ),
     "cli/commands/__init__.py": (
+        "COMMANDS = {",
+        "def _count():\n    from . import count\n\n    return count\n\n\n",
         '    "judge": Command(',
-        '    "count": Command("count the triangles of a scene"),\n',
+        '    "count": Command("count the triangles of a scene", _count),\n',
     ),
 }
 SEES_COMMAND = """

@@ -95,9 +95,9 @@ def _cameras(camera: Camera, frame: Frame) -> Iterator[Camera]:
     if camera.clip_start > 0:
         low, high = np.floor(np.log10(camera.clip_start)), np.log10(max(nearest, 1e-30))
         decades = 10.0 ** np.arange(low, high + 1)
-        raised = [float(digit * d) for d in decades for digit in _ROUND]
-        raised = [s for s in raised if camera.clip_start < s <= _ROOM * nearest]
-        starts += [s for s in raised if s <= _NEAR * nearest][-1:] + raised
+        raised = np.outer(decades, _ROUND).ravel()
+        raised = raised[(camera.clip_start < raised) & (raised <= _ROOM * nearest)]
+        starts += [*raised[raised <= _NEAR * nearest][-1:], *raised]
         starts += [float(f"{camera.clip_start * share:.1g}") for share in (0.5, 0.1)]
     for end, start in product(ends, starts):
         if (start, end) != (camera.clip_start, camera.clip_end):

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from . import running
-from .commands import COMMANDS, module
+from .commands import COMMANDS
 from .parser import DONE_HELP, EXIT_CODES_HELP, Parser
 
 
@@ -52,8 +52,8 @@ def _run(argv: Sequence[str]) -> int:
     parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES_HELP)
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
     for name, command in COMMANDS.items():
-        if command.is_own:
-            module(name).add(commands.add_parser(name, help=command.help))
+        if command.module:
+            command.module().add(commands.add_parser(name, help=command.help))
     given = parser.parse_args(argv)
     code: int = given.run(given)
     return code

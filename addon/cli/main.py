@@ -13,7 +13,7 @@ from .. import __version__
 from ..tracer import signals
 from ..wording import capital
 from . import running
-from .commands import COMMANDS, module
+from .commands import COMMANDS
 from .parser import EXIT_CODES_HELP, Parser
 from .watch import watched
 
@@ -71,14 +71,15 @@ def _add_options(own: Parser, name: str) -> None:
         if found.name == name:
             found.load().add(own)
             return
-    if not COMMANDS[name].is_own:
+    module = COMMANDS[name].module
+    if module is None:
         from ..scene import SceneError
 
         raise SceneError(
             f"the command {name} is not part of the add-on: pip install --editable . in a clone "
             "of the project installs it"
         )
-    module(name).add(own)
+    module().add(own)
     for found in entry_points(group="reference_tracer.options"):
         found.load()(own, name)
 

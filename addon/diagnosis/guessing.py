@@ -35,7 +35,6 @@ from .evidence import FEW, LEAST_SETTLED, Evidence, Score, least_with
 from .faults import FAULTS
 from .faults.fault import TRIED, AnyFault, Effort, Guess, SearchEndedError
 from .faults.fitting import ENCLOSED
-from .faults.given import given
 from .faults.matching import is_everywhere
 from .trial import Trial, in_full, traced_anew, trial_of
 from .variants import carried
@@ -93,19 +92,16 @@ class Guessing:
         If it reaches its part of the limit, or all work does, it may return what it has, or None.
         """
         end = min(self.limit, self.steps + self.limit / PART)
-        while self.steps < end:
-            try:
-                next(work)
-            except StopIteration as stop:
-                found: T = stop.value
-                return found
-            self.steps += 1
-            yield None
-        self.untried.add(fault.name)
         try:
+            while self.steps < end:
+                next(work)
+                self.steps += 1
+                yield None
+            self.untried.add(fault.name)
             work.throw(SearchEndedError())
         except StopIteration as stop:
-            return stop.value
+            found: T = stop.value
+            return found
         except SearchEndedError:
             pass
         return None
@@ -155,16 +151,16 @@ class Guessing:
         out = []
         for fault in faults:
             found = yield from self._limited(fault.find(evidence), fault)
-            for made, guess in (*given(evidence, fault), *((fault, g) for g in found or ())):
+            for guess in found or ():
                 self.guesses += 1
-                score = (yield from self._limited(_score(evidence, made, guess), made)) or NONE
+                score = (yield from self._limited(_score(evidence, fault, guess), fault)) or NONE
                 if _may_be_finer(evidence, score):
-                    guess = yield from self._finer(evidence, made, guess)
-                    again = self._limited(_score(evidence, made, guess), made)
+                    guess = yield from self._finer(evidence, fault, guess)
+                    again = self._limited(_score(evidence, fault, guess), fault)
                     score = (yield from again) or NONE
                 likely = bool(guess.low) or score.gain >= LIKELY * score.broken
                 if likely and score.gain >= _least(evidence):
-                    out.append((score.gain, made, guess))
+                    out.append((score.gain, fault, guess))
         return out
 
     def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
@@ -307,8 +303,10 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
     """Return whether one that may be reported settles nearly all: then no more are tried."""
     count = evidence.unexplained.sum()
-    least = {True: ENOUGH * count, False: (1 - ROUGHLY) * count}
-    return any(t.gain >= least[t.cost <= ENCLOSED] for t in _good(evidence, trials))
+    return any(
+        t.gain >= count * (ENOUGH if t.cost <= ENCLOSED else 1 - ROUGHLY)
+        for t in _good(evidence, trials)
+    )
 
 
 def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:

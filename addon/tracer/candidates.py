@@ -146,16 +146,9 @@ def _pixel(value: Floats, low: int, high: int, unknown: int) -> Integers:
 
 
 def within(bounds: Integers, tile: Region) -> Integers:
-    """Intersect boxes of pixels with a tile; both (4, m), as :func:`pixel_bounds` has them."""
-    x0, x1, y0, y1 = bounds
-    return np.stack(
-        (
-            np.maximum(x0, tile.x0),
-            np.minimum(x1, tile.x1),
-            np.maximum(y0, tile.y0),
-            np.minimum(y1, tile.y1),
-        )
-    )
+    """Intersect boxes of pixels with a tile; they are as :func:`pixel_bounds` has them, (4, m)."""
+    x = np.clip(bounds[:2], tile.x0, tile.x1)
+    return np.concatenate((x, np.clip(bounds[2:], tile.y0, tile.y1)))
 
 
 def cull(scene: Scene, dtype: np.dtype[np.floating], memory: int, reach: float) -> Work[Plan]:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from types import MappingProxyType
 
 from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.report import folders
@@ -40,11 +39,11 @@ class Bench:
         what: str,
         who: str,
         values: Iterable[float],
-        facts: Mapping[str, str | float] = MappingProxyType({}),
+        facts: Facts | None = None,
     ) -> None:
         """Keep values, one a round, and what else is known of them; a clock may see no time."""
         if seen := [value for value in values if value > 0]:
-            metadata = {"name": f"{what}: {who}", **machine(), **facts}
+            metadata = {"name": f"{what}: {who}", **machine(), **(facts or {})}
             self.found[what, who] = Benchmark(
                 [Run(seen, metadata=metadata, collect_metadata=False)]
             )

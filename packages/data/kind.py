@@ -167,15 +167,6 @@ class Data:
         """
         return self.of_frame(frame), np.where(self.blank[..., None], np.nan, self.values)
 
-    def silent(self, frame: Frame) -> str:
-        """Say that all pixels hold the same, if a traced frame has more to show; else empty."""
-        made, held = self.pair(frame)
-        expected = frame.object_index[..., None] if self.kind.name == "ids" else made
-        if _is_constant(expected) or not _is_constant(held):
-            return ""
-        same = "are the same in every pixel"
-        return f"{self.kind.words} {same}: a constant says nothing of what is wrong"
-
     def shown(self, values: Array) -> Colors:
         """Return values (h, w, c) as colours to look at, (h, w, 4): from the file's least to most.
 
@@ -195,7 +186,3 @@ class Data:
     def color(self) -> Colors:
         """The file's own values as colours, (h, w, 4)."""
         return self.shown(np.where(self.blank[..., None], np.nan, self.values))
-
-
-def _is_constant(values: Array) -> bool:
-    return np.array_equal(values, np.broadcast_to(values[0, 0], values.shape), equal_nan=True)

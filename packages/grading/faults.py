@@ -127,7 +127,8 @@ def dependence(answers: TableAnswers, ask: Ask) -> list[Fault]:
         some = np.concatenate(
             [np.flatnonzero(cases.group == g)[:size] for g in np.unique(cases.group)]
         )
-        for first in _spread(len(some) // size) * size:
+        last = len(some) // size - 1
+        for first in np.unique(np.arange(CALLS) * last // (CALLS - 1)) * size:  # evenly spread
             rows = some[first : first + size]
             off = differs(
                 answers.table[rows],
@@ -144,11 +145,6 @@ def dependence(answers: TableAnswers, ask: Ask) -> list[Fault]:
                 )
                 return [Fault("depends_on_the_call", text, count)]
     return []
-
-
-def _spread(count: int) -> Places:
-    """Return the numbers of CALLS things of so many, evenly spread."""
-    return np.unique(np.arange(CALLS) * (count - 1) // max(CALLS - 1, 1))
 
 
 def _again(cases: TableCases, ask: Ask, rows: Places) -> Floats:

@@ -26,14 +26,11 @@ def as_csv(pages: Pages) -> Files:
     table = csv.writer(text)
     table.writerow(("file", "score", "score_as_is", "verdict", "what is wrong"))
     for s, _ in pages:
-        name = _as_text(s["file"])
+        name = s["file"]
+        if name.startswith(("=", "+", "-", "@", "\t", "\r")):
+            name = f"'{name}"  # so that a spreadsheet takes it for no formula
         table.writerow((name, s["score"], s["score_as_is"], s["verdict"], wrong_names(s)))
     yield "judge.csv", text.getvalue()
-
-
-def _as_text(name: str) -> str:
-    """Return a name that a spreadsheet takes for no formula."""
-    return f"'{name}" if name.startswith(("=", "+", "-", "@", "\t", "\r")) else name
 
 
 def as_junit(pages: Pages) -> Files:

@@ -20,7 +20,7 @@ from .cases import TableCases
 from .examples import find_examples
 from .external import Code, Program, Run
 from .faults import Fault, dependence, find_faults, raising
-from .form import Arrays, Form
+from .form import Arrays
 from .judged_scene import JudgedScene
 from .matching import Match
 from .names import distinct, numbered
@@ -129,7 +129,11 @@ def judge(
     """
     subject = cases.subject
     out = Judgement(name or names([submission])[0], subject, scenes=[s.name for s in scenes])
-    with _started(submission, subject.form, limits) as student:
+    with (
+        Program(submission, subject.form, limits)
+        if isinstance(submission, Run)
+        else Student(submission, subject.form, limits)
+    ) as student:
         if started is not None:
             started.append(student)
         try:
@@ -146,12 +150,6 @@ def judge(
         out.seconds = student.seconds
     out.printed, out.said = student.printed, student.said  # all of it, now that it has ended
     return out
-
-
-def _started(submission: Code, form: Form, limits: Limits | None) -> Submission:
-    if isinstance(submission, Run):
-        return Program(submission, form, limits)
-    return Student(submission, form, limits)
 
 
 def names(submissions: Sequence[Code]) -> list[str]:

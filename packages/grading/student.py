@@ -57,7 +57,10 @@ class Student(Submission):
             to.write(question.tobytes())
             to.flush()
             self._hear(back)
-            numbers = _read(back, 8 * len(question) * self.form.numbers)
+            size = 8 * len(question) * self.form.numbers
+            numbers = back.read(size)
+            if len(numbers) < size:
+                raise EOFError
             return np.frombuffer(numbers).reshape(-1, self.form.numbers)
 
     def end(self) -> None:
@@ -157,10 +160,3 @@ class Student(Submission):
         self.seconds += seconds
         if wrong:
             raise wrong
-
-
-def _read(stream: IO[bytes], size: int) -> bytes:
-    data = stream.read(size)
-    if len(data) < size:
-        raise EOFError
-    return data

@@ -90,8 +90,9 @@ def kept_in(
     own = environment | {k: os.environ[k] for k in _KEPT_ENVIRONMENT if k in os.environ}
     named = [Path(word).resolve() for word in words if os.path.exists(word)]
     seen = [*libraries, *named, *(path if path.is_dir() else path.parent for path in named)]
-    options = _seen([*seen, start or Path.cwd()], folder, own)
-    return [*kept, *options, "--chdir", str(start or Path.cwd()), "--", *words]
+    start = start or Path.cwd()
+    options = _seen([*seen, start], folder, own)
+    return [*kept, *options, "--chdir", str(start), "--", *words]
 
 
 def check_shown(words: Sequence[str], otherwise: str = "") -> None:

@@ -214,7 +214,7 @@ def _closed(scene: Scene, beside: list[Hits], asks: Bools) -> Floats:
     asked = np.flatnonzero(asks & on_one & (instance[0] != NOTHING))
     names = np.stack([h.triangle[asked] for h in beside])  # (samples, pixels)
     corners = world_corners(scene, instance[:, asked].ravel(), names.ravel())
-    depth = film_of(scene.camera, np.hstack(corners))[2].reshape(3, *names.shape)
+    depth = film_of(scene.camera, corners.swapaxes(0, 1).reshape(3, -1))[2].reshape(3, *names.shape)
     whole = ((depth >= scene.camera.clip_start) & (depth <= scene.camera.clip_end)).all(axis=(0, 1))
     corners = corners.reshape(3, 3, *names.shape)
     same = (corners[:, None, :, :1] == corners).all(axis=2)  # with those of the first sample

@@ -187,22 +187,15 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
     if found and still and (most := max(found.share, still.share, *others)) >= FOUND:
         moves = found.share >= still.share + MORE or is_everywhere(evidence)
         return [values_of(axes @ found.units)] if moves and found.share >= NEARLY * most else []
-    units = np.linalg.pinv(axes)
     least = looked_up(evidence, own) + BETTER
     scores: list[tuple[float, Values]] = []
     for number, values in enumerate(family.starts(evidence)):
         camera = family.camera(own, *values)
-        score = 0.0 if camera is None else looked_up(evidence, camera)
-        if score > least:
+        if camera and (score := looked_up(evidence, camera)) > least:
             scores.append((score, values))
         if number % 32 == 0:
             yield None
-    best: list[Values] = []
-    for _, values in sorted(scores, key=lambda pair: -pair[0]):
-        apart = [np.abs(units @ np.subtract(values, b)).max() > REACH for b in best]
-        if len(best) < KEPT and all(apart):
-            best.append(values)
-    return best
+    return [values for _, values in sorted(scores, key=lambda pair: -pair[0])[:KEPT]]
 
 
 def traced(evidence: Evidence, change: Callable[..., Camera | None], reach: float = REACH) -> Right:

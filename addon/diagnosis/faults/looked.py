@@ -13,7 +13,7 @@ import numpy as np
 from ...arrays import Bools, Floats, Places
 from ...pictures.bounds import largest_within
 from ...pictures.picture import Picture
-from ...scene import Scene
+from ...scene import Scene, without
 from ...tracer.camera import camera_rays, pixel_size
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
@@ -51,7 +51,6 @@ class Looked:
         own = instances_named(scene, name)
         if not own:  # an infinite plane
             return None
-        those = set(own)
         seen = np.isin(frame.instance_index, own)
         shown = _shown(evidence, own) & (evidence.unexplained | seen)
         if kept:
@@ -65,8 +64,7 @@ class Looked:
             chosen.flat[spread(some, evidence.size // 2)] = True
         rows, columns = np.nonzero(chosen)
         at = rows, columns
-        left = [i for n, i in enumerate(scene.instances) if kept or n not in those]
-        rest = replace(scene, instances=tuple(left))
+        rest = scene if kept else without(scene, [name])
         depth = float(np.median(frame.t[seen]))
         picture = evidence.picture.at(at)
         behind = yield from evidence.trace(rest, at)
@@ -77,7 +75,7 @@ class Looked:
     def alone(self) -> Scene:
         """The scene with the object alone."""
         scene = self.evidence.case.scene
-        return _alone(scene, instances_named(scene, self.name))
+        return only(scene, instances_named(scene, self.name))
 
     def right(self, changed: Scene) -> Work[Bools]:
         """Return which of the n pixels are right with the object as a scene has it, (n,)."""
@@ -161,9 +159,9 @@ def _shown(evidence: Evidence, own: list[int]) -> Bools:
     picture, scene = evidence.picture, evidence.case.scene
     if picture.owners:
         return np.isin(picture.owners.pixels, picture.owners.instances[own])
-    return shows_colors(picture, _alone(scene, own).color_table[:-1])
+    return shows_colors(picture, only(scene, own).color_table[:-1])
 
 
-def _alone(scene: Scene, own: list[int]) -> Scene:
+def only(scene: Scene, own: list[int]) -> Scene:
     """Return the scene with some instances alone."""
     return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())

@@ -63,16 +63,16 @@ def _far(looked: Looked, changes: Sequence[Change]) -> Work[Starts]:
 
     One that is hardly better than no change is none.
     """
-    out: list[tuple[int, float, int, Change, Values]] = []
+    out: list[tuple[int, float, Change, Values]] = []
     for change in changes:
         search = change.search(looked)
         least = PROMISING * (yield from search.count(change.none))
         for start in change.starts(looked):
             right = yield from search.count(start)
             size = float(np.abs(np.subtract(start, change.none)).sum())
-            out += [(-right, size, len(out), change, start)] if right >= least else []
+            out += [(-right, size, change, start)] if right >= least else []
     starts: Starts = {}
-    for *_, change, start in sorted(out, key=lambda one: one[:3])[:KEPT]:
+    for *_, change, start in sorted(out, key=lambda one: one[:2])[:KEPT]:
         starts.setdefault(change, []).append(start)
     return starts
 
