@@ -157,6 +157,18 @@ def test_colors_between_corners(make):
         assert "weighed by s₁, s₂, s₃" in document.document_markdown(found)
 
 
+def test_a_color_that_is_not_finite(make):
+    """Blender's colour attributes may be anything: the derivation has what the picture has."""
+    colors = np.full((2, 3, 4), 0.5, np.float32)
+    colors[:, 1, 2] = np.inf
+    quad = make.quad(-1, 1, -1.1, 1, -3)
+    mesh = Mesh(quad.vertices, quad.triangles, corner_colors=colors)
+    scene = make.scene(make.camera(4, 4), mesh)
+    found = derive(scene, 1, 1)
+    np.testing.assert_array_equal(np.float32(found.color), render(scene).color[1, 1])
+    assert "not finite" in document.document_markdown(found)
+
+
 def test_from_inside_what_is_behind_is_told(make):
     """A camera in a room: the wall behind it is met by the line, and rejected, not left out."""
     front, back = make.quad(-9, 9, -9, 9, -5, "Front"), make.quad(-9, 9, -9, 9, 5, "Back")
