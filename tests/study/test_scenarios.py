@@ -8,14 +8,10 @@ import warnings
 import numpy as np
 import pytest
 from reference_tracer.scene import Scene
+from reference_tracer.study.scenarios import scenes
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.study.truth import pixel_rays
 from reference_tracer.tracer.settings import Precision
-
-
-def directions(scene):
-    camera = scene.camera
-    return pixel_rays(camera, Precision.FLOAT64).directions.T.reshape(camera.height, -1, 3)
 
 
 @pytest.mark.parametrize("scenario", SCENARIOS, ids=lambda s: s.name)
@@ -54,3 +50,9 @@ def test_the_same_each_time():
         for a, b in zip(one.meshes, two.meshes, strict=True):
             assert np.array_equal(a.vertices, b.vertices)
             assert np.array_equal(a.triangles, b.triangles)
+
+
+def test_the_second_plane_is_nearer():
+    scene = scenes.close_planes(2.0**30, 8, 6)
+    far, near = (mesh.vertices @ scene.camera.forward for mesh in scene.meshes)
+    assert np.allclose(far - near, 5 * 2.0**-22, rtol=1e-6)
