@@ -83,7 +83,7 @@ def load_scene(path: str | Path) -> Scene:
     >>> scene.camera.width, scene.triangle_count
     (960, 1)
     """
-    scene, manifest = open_scene(Path(path))
+    scene, manifest, _ = open_scene(Path(path))
     for remark in manifest.remarks():
         warnings.warn(f"{path}: {remark.strip()}", stacklevel=2)
     return scene
@@ -163,7 +163,7 @@ def compare(
     if isinstance(scene, Scene):
         manifest = file_manifest(Path("scene"), scene, Account())
     else:
-        scene, manifest = open_scene(Path(scene))
+        scene, manifest, _ = open_scene(Path(scene))
     if camera is not None:
         scene, manifest = scene.seen_by(camera), replace(manifest, camera=camera.name)
     if kind:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from .arrays import Floats
 from .camera_files.convention import View
+from .camera_files.frame import pose
 from .projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
 from .tracer.vector import transform_points
@@ -64,7 +65,7 @@ def framing(
     eye = min(*(-(right + left) / (2 * slope)), near - NEAREST * size)
     at = center + axes @ (*((right - left) / 2), -eye)
     return Camera(
-        _pose(axes, at),
+        pose(axes, at),
         window,
         width,
         height,
@@ -161,7 +162,7 @@ class Choice:
         if not distance:
             raise SceneError("eye and target are the same point: move one of them.")
         return Camera(
-            _pose(axes_of(backward), eye),
+            pose(axes_of(backward), eye),
             _window(half, width, height, tall),
             width,
             height,
@@ -170,14 +171,6 @@ class Choice:
             clip_end=distance * 1e3,
             name="eye",
         )
-
-
-def _pose(axes: Floats, at: Floats) -> Floats:
-    """Return world_from_camera, (4, 4), of a camera at a point."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = axes
-    matrix[:3, 3] = at
-    return matrix
 
 
 def _half(angle: float) -> float:

@@ -13,6 +13,7 @@ from .files.scenes import Account, load_account, load_scene
 from .framing import Choice
 from .manifest import Manifest, ObjectEntry
 from .scene import Scene, SceneError
+from .tracer.settings import Settings
 
 
 class Opened(NamedTuple):
@@ -20,6 +21,7 @@ class Opened(NamedTuple):
 
     scene: Scene
     manifest: Manifest
+    settings: Settings = Settings()  # that it stores
 
 
 @cache

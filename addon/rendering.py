@@ -182,7 +182,6 @@ def trace(
         raise SceneError(f"all hits are certified, and not traced by {settings.method}")
     statistics = statistics or Statistics()
     settings = resolved(settings or Settings(), statistics)
-    method = Method(settings.method)
     if rays or every:
         rays = rays or camera_rays(scene.camera, *film_positions(scene.camera.region))
         if not (np.isfinite(rays.origins).all() and np.isfinite(rays.directions).all()):
@@ -192,7 +191,7 @@ def trace(
             return result_of(only("rays", "all hits of rays").all_hits(scene, rays, clip))
         o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
         rays = replace(rays, origins=o, directions=d)
-        return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))
+        return result_of(RAY_TRACERS[settings.method](scene, rays, settings, statistics))
     return result_of(hits(scene, settings, statistics))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from typing import TextIO
 
 LONGEST = 2000  # letters of a line: a name in a file may have a million
@@ -14,6 +15,17 @@ def count_of(number: int, one: str, several: str = "") -> str:
     `several` is what stands behind all counts but 1: by default the same word with an s.
     """
     return f"{number:,} {one if number == 1 else several or f'{one}s'}"
+
+
+def listed(names: Sequence[str], most: int) -> str:
+    """Return some names, and how many there are besides."""
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
+
+
+def capital(text: str) -> str:
+    """Return a text with a capital as its first letter; the others stay."""
+    return text[:1].upper() + text[1:]
 
 
 def printable(text: str, but: str = "\n\t") -> str:

@@ -166,7 +166,7 @@ def test_half_transparent_colours_are_premultiplied_once(make, against, tmp_path
     save_scene(tmp_path / "half.npz", scene)
     stored = images.to_display(render(scene).color)
     assert set(np.unique(stored[..., 3])) == {128, 255}
-    back = images.read_picture(_saved(Image, stored, tmp_path / "half.png"))
+    back = images.open_picture(_saved(Image, stored, tmp_path / "half.png")).read()
     assert not back.opaque and back.levels == 255
     np.testing.assert_allclose(back.color, render(scene).color, atol=2 / 255)
     assert against(render(scene).color, "half2.png", source="half.npz")[0] == 0

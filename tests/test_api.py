@@ -58,7 +58,7 @@ def test_a_file_and_an_array_give_the_same(triangle):
     color[20:24, 60:66] = (0.2, 0.5, 0.1, 1)
     images.save_png("picture.png", images.to_display(color))
     of_file = compare(triangle, "picture.png", diagnose=False)
-    stored = images.read_picture("picture.png").color
+    stored = images.open_picture("picture.png").read().color
     of_array = compare(triangle, stored, diagnose=False)
     assert of_file.verdict == of_array.verdict == "differences"
     assert of_file.counts == of_array.counts and of_file.counts.unexplained == 24
@@ -117,7 +117,7 @@ def test_what_the_file_of_a_scene_lacks_counts_in_the_verdict(tmp_path, monkeypa
     """Also once it is exported: what a .npz's source lacked, a comparison of it knows."""
     monkeypatch.chdir(tmp_path)
     Path("curve.obj").write_text(TRIANGLE + "curv 0 1 1 2\n", encoding="utf-8")
-    scene, manifest = open_scene(Path("curve.obj"))
+    scene, manifest, _ = open_scene(Path("curve.obj"))
     assert manifest.lacks
     color = render(scene).color
     save_scene("kept.npz", scene, manifest)

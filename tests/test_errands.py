@@ -119,16 +119,12 @@ COLUMN = {
     "study/trade.py": (
         "    best_pixels: bool = False",
         "    hits: int = 0\n",
-        ")\nTIMED",
-        '    Column("hits", "hits", False, lambda r: f"{r.hits} hit", unit="pixels"),\n',
+        ")\n\n\n@dataclass(frozen=True)\nclass Trade:",
+        '    Column("hits", "hits", lambda r: f"{r.hits} hit", unit="pixels"),\n',
     ),
     "study/tradeoff.py": (
-        "    rounds: list[float] = field",
-        "    hits: int = 0\n",
-        "            rounds=tuple(self.rounds),",
-        "            hits=self.hits,\n",
-        "        choice.coverage_error =",
-        "        choice.hits = int((frame.triangle_index >= 0).sum())\n",
+        '            "peak_bytes": peak,',
+        '            "hits": int((frame.triangle_index >= 0).sum()),\n',
     ),
 }
 SEES_COLUMN = """

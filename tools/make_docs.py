@@ -35,6 +35,7 @@ from reference_tracer.cli import main as reftrace
 
 PROJECT = Path(__file__).resolve().parents[1]
 DOCS = PROJECT / "docs"
+IMAGES = DOCS / "images"
 MADE = "docs", "lessons"  # folders below out/ for what the documents' commands make
 LINES = 100  # of one command's output, at most
 
@@ -78,25 +79,25 @@ def main() -> None:
     options = parser.parse_args()
     for folder in MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
-    pictures.write(DOCS / "images" / "lessons")
-    causes.write(DOCS / "images" / "causes")
+    pictures.write(IMAGES / "lessons")
+    causes.write(IMAGES / "causes")
     if not options.files:  # it takes a minute
         run(Command("reftrace extremes --out out/docs/extremes", ""))
-        story.write(DOCS / "images" / "diagnosis.gif")
+        story.write(IMAGES / "diagnosis.gif")
     if not options.no_browser:
         from documents import browser, drawings
 
-        drawings.write(DOCS / "images" / "lessons")
+        drawings.write(IMAGES / "lessons")
         if not options.files:
             plotted = PROJECT / "out" / "docs" / "extremes" / "extremes.html"
-            drawings.save_plot(plotted, DOCS / "images" / "extremes.svg")
+            drawings.save_plot(plotted, IMAGES / "extremes.svg")
         page = PROJECT / "out" / "demo" / "page.html"  # of `make demo`
-        browser.save(page, DOCS / "images" / "page.png", 1400, 1130)
+        browser.save(page, IMAGES / "page.png", 1400, 1130)
     if not options.no_window:
         from documents import clips, window
 
-        window.write(DOCS / "images" / "tutorial")
-        clips.write(DOCS / "images" / "lessons" / "clips")
+        window.write(IMAGES / "tutorial")
+        clips.write(IMAGES / "lessons" / "clips")
     values = figures.values() | derivations.values() | records.values() | subjects.values()
     values |= {"python_api": python.page()}
     page = PROJECT / "ARCHITECTURE.md"

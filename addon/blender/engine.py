@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.types import Context, Depsgraph, Scene, ViewLayer
 
-from ..wording import say
+from ..wording import capital, say
 from .temporary import ENGINE, is_temporary
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         scene, manifest = as_compared(depsgraph.scene, *export(depsgraph))
         say(*manifest.lines())
         for note in manifest.notes:
-            self.report({"INFO"}, note[0].upper() + note[1:])
+            self.report({"INFO"}, capital(note))
         frame = Frame.empty(scene)
         layer = depsgraph.view_layer.name
         passes = _enabled(depsgraph.view_layer)
@@ -142,7 +142,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         required = statistics.required()
         say(*required)
         for note in statistics.notes:  # such as that nothing can be certified here
-            self.report({"WARNING"}, note[0].upper() + note[1:])
+            self.report({"WARNING"}, capital(note))
         self.update_stats("", required[0] if required else "")
 
 

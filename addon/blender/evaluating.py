@@ -12,26 +12,23 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.types import Depsgraph
 
 from ..manifest import Manifest
-from ..pictures.certificate import CameraCertificate
 from ..scene import Scene, SceneError
 from ..tracer.signals import held
-from .reading.camera import certify_camera
 from .reading.export import export
+from .reading.rendered import result_image
 from .temporary import ENGINE, go_to, remove
-from .turns import InTurns, T, Turns
+from .turns import InTurns, T, Turns, once
 from .values import values_restored
 from .versions import ENGINES
 
 if TYPE_CHECKING:
     from .drawing.judge import Judge
-
-Certified: TypeAlias = tuple[Scene, Manifest, CameraCertificate | None]
 
 
 def evaluated(scene: bpy.types.Scene, judge: Judge | None, work: Turns[T]) -> T:
@@ -54,7 +51,7 @@ def evaluated(scene: bpy.types.Scene, judge: Judge | None, work: Turns[T]) -> T:
         If Blender draws nothing.
     """
     turns = InTurns(work)
-    had_result = bool(_render_results())
+    had_result = result_image()
     with held(), TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "picture")  # also one of work that has ended
         try:
@@ -66,14 +63,9 @@ def evaluated(scene: bpy.types.Scene, judge: Judge | None, work: Turns[T]) -> T:
             said = str(error).removeprefix("Error: ").strip()
             turns.fail(SceneError(f"{judge.name} draws no picture: {said}" if judge else said))
         turns.fail(SceneError("Blender ended the render"))
-        if not had_result:
-            bpy.data.batch_remove(_render_results())
+        if not had_result and (image := result_image()):
+            bpy.data.images.remove(image)
     return turns.result()
-
-
-def _render_results() -> list[Any]:
-    """Return the image of the last render, if there was one in this file."""
-    return [image for image in bpy.data.images if image.type == "RENDER_RESULT"]
 
 
 def export_at(tmp: Any, frame: float, judge: Judge | None = None) -> Scene:
@@ -81,7 +73,7 @@ def export_at(tmp: Any, frame: float, judge: Judge | None = None) -> Scene:
     now = tmp.frame_current + tmp.frame_subframe
     with values_restored():
         go_to(tmp, frame)
-        scene, _, _ = export_for_render(tmp, judge)
+        scene, _ = export_for_render(tmp, judge)
         go_to(tmp, now)
     return scene
 
@@ -119,7 +111,7 @@ def _render(turns: InTurns[Any], scene: Any, judge: Judge | None) -> None:
         scene.render.engine = ENGINE  # the one that has drawn lets go of what it kept
     if judge and not writes:
         try:
-            _render_results()[0].save_render(f"{scene.render.filepath}.exr", scene=scene)
+            result_image().save_render(f"{scene.render.filepath}.exr", scene=scene)
         except RuntimeError:
             turns.fail(SceneError(f"{judge.label} made no picture: see the console."))
     if judge and not turns.go_on():
@@ -192,15 +184,7 @@ def _told(**handlers: Callable[..., None]) -> Iterator[None]:
             event.extend(others)
 
 
-def export_certified(depsgraph: Depsgraph, known: dict[Any, Any] | None = None) -> Certified:
-    """Return what :func:`.reading.export.export` does, and how close its camera is to Blender's."""
-    scene, manifest = export(depsgraph, known)
-    if not scene.camera.projection.is_linear:  # Blender has no matrix for it
-        return scene, manifest, None
-    return scene, manifest, certify_camera(depsgraph, scene.camera)
-
-
-def export_for_render(scene: bpy.types.Scene, judge: Judge | None = None) -> Certified:
+def export_for_render(scene: bpy.types.Scene, judge: Judge | None = None) -> tuple[Scene, Manifest]:
     """Return the *render* evaluation of a temporary scene, or what a judge's picture shows.
 
     Its engine is then this one: such an evaluation exists only while an engine renders.
@@ -210,8 +194,4 @@ def export_for_render(scene: bpy.types.Scene, judge: Judge | None = None) -> Cer
     SceneError
         If the scene cannot be traced.
     """
-
-    def exported() -> Turns[Certified]:
-        return export_certified((yield False))
-
-    return evaluated(scene, judge if judge and judge.needs_window else None, exported())
+    return evaluated(scene, judge if judge and judge.needs_window else None, once(export))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+from concurrent.futures import Future
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from bpy.types import Depsgraph
@@ -15,6 +16,11 @@ T = TypeVar("T")
 Turns: TypeAlias = Generator[bool, Any, T]
 
 
+def once(of: Callable[[Any], T]) -> Turns[T]:
+    """Return what a function makes of the evaluation; nothing is drawn."""
+    return of((yield False))
+
+
 class InTurns(Generic[T]):
     """Work that is done in turns with Blender.
 
@@ -24,7 +30,7 @@ class InTurns(Generic[T]):
 
     def __init__(self, work: Turns[T]) -> None:
         self._work = work
-        self._ended: list[Callable[[], T]] = []
+        self._end: Future[T] = Future()
         self.wants_more = False  # than the picture that is to be drawn
         self.go_on()
 
@@ -46,21 +52,15 @@ class InTurns(Generic[T]):
 
     def result(self) -> T:
         """Return what the work returned, or raise what it raised."""
-        return self._ended[0]()
+        return self._end.result(timeout=0)
 
     def _do(self, turn: Callable[[], bool]) -> bool:
-        if not self._ended:
+        if not self._end.done():
             self.wants_more = False
             try:
                 self.wants_more = turn()
             except StopIteration as stop:
-                value: T = stop.value
-                self._ended.append(lambda: value)
-            except BaseException as raised:
-                error = raised
-                self._ended.append(lambda: _raise(error))
-        return bool(self._ended)
-
-
-def _raise(error: BaseException) -> Any:
-    raise error
+                self._end.set_result(stop.value)
+            except BaseException as error:
+                self._end.set_exception(error)
+        return self._end.done()

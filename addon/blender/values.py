@@ -6,13 +6,13 @@ What he has moved but not keyed yet would be lost: `values_restored` puts it bac
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
 import bpy
 import numpy as np
-from bpy.types import ID, Object
+from bpy.types import Object
 
 from .versions import curves
 
@@ -63,9 +63,10 @@ def _set(blocks: Any, name: str, values: Mapping[Any, Any]) -> dict[Any, Any]:
 
 
 @contextmanager
-def values_restored() -> Iterator[None]:
-    """Put animated values back to what they were."""
-    before = [(block, path, _value(block, path)) for block, path in set(_animated())]
+def values_restored(paths: Iterable[tuple[Any, str]] | None = None) -> Iterator[None]:
+    """Put values back to what they were: of data, by their paths, in order; else animated ones."""
+    known = dict.fromkeys(_animated() if paths is None else paths)
+    before = [(block, path, _value(block, path)) for block, path in known]
     try:
         yield
     finally:
@@ -96,7 +97,7 @@ def _curves(owner: Any) -> Iterator[Any]:
             yield from curves(action)
 
 
-def _value(block: ID, path: str) -> Any:
+def _value(block: Any, path: str) -> Any:
     """Return a value that no longer belongs to Blender; None where the path leads nowhere."""
     try:
         value = block.path_resolve(path)
@@ -105,7 +106,7 @@ def _value(block: ID, path: str) -> Any:
     return tuple(value) if hasattr(value, "__len__") and not isinstance(value, str) else value
 
 
-def _assign(block: ID, path: str, value: Any) -> None:
+def _assign(block: Any, path: str, value: Any) -> None:
     if path.endswith("]"):  # a custom property: pose.bones["Arm"]["bend"]
         at = path.rindex("[")
         owner = block.path_resolve(path[:at]) if at else block

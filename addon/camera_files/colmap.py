@@ -17,7 +17,7 @@ import numpy as np
 from ..arrays import Floats
 from ..scene import SceneError
 from . import frame
-from .convention import Convention, Files, Source, View
+from .convention import Convention, Files, Size, Source, View
 from .features import ASPECT, SHIFT
 
 CAMERAS, IMAGES, POINTS = "cameras.txt", "images.txt", "points3D.txt"
@@ -63,14 +63,10 @@ def rotation(q: Floats) -> Floats:
     SceneError
         If it is zero.
     """
-    length = float(np.linalg.norm(q))
+    length = np.linalg.norm(q)
     if not length:
         raise SceneError(f"{IMAGES}: a quaternion is zero")
     return frame.of_quaternion(*(q / length))
-
-
-def _folder(path: Path) -> Path:
-    return path if path.is_dir() else path.parent
 
 
 def _is_of(source: Source) -> bool:
@@ -81,7 +77,8 @@ def _is_of(source: Source) -> bool:
 
 
 def _read(source: Source) -> list[View]:
-    folder = _folder(source.path)
+    path = source.path
+    folder = path if path.is_dir() else path.parent
     if not (folder / CAMERAS).is_file():
         raise SceneError(
             f"it has no {CAMERAS}: `colmap model_converter --output_type TXT` writes it of a binary"
@@ -130,7 +127,7 @@ def _numbers(words: Sequence[str], where: str) -> Floats:
     return values
 
 
-_Lens = tuple[Floats, tuple[int, int]]
+_Lens = tuple[Floats, Size]
 
 
 def _camera(words: list[str], where: str) -> tuple[str, _Lens]:
@@ -148,7 +145,7 @@ def _camera(words: list[str], where: str) -> tuple[str, _Lens]:
             f"{where}: {model} has lens distortion, which is not modelled: "
             "`colmap image_undistorter` writes pictures and cameras without"
         )
-    k = frame.matrix_of(*(float(params[n]) for n in places))
+    k = frame.matrix_of(*params[[*places]])
     return words[0], (k, (int(values[0]), int(values[1])))
 
 
@@ -161,14 +158,14 @@ def _image(words: list[str], where: str, lenses: dict[str, _Lens]) -> View:
     matrix = frame.pose(rotation(pose[:4]), pose[4:])
     k, size = lenses[words[8]]
     name = words[9].strip()
-    return View(frame.pinhole(k, matrix, size, None, name), name, is_clipped=False)
+    return frame.pinhole(k, matrix, size, name)
 
 
 COLMAP = Convention(
     "colmap",
     "COLMAP",
     f"{CAMERAS}, {IMAGES} and {POINTS} in a folder",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     False,
     _write,
     _is_of,

@@ -21,6 +21,8 @@ CENTERS = tuple(FIRST)
 _HEAD = 1024  # bytes, in which a file of text begins
 _BEGINNINGS = b"{", b"[", b"<", b"extrinsic"  # of JSON, XML and MVSNet's text
 
+Size = tuple[int, int]  # of a picture: width and height
+Clip = tuple[float, float]  # where a camera begins to see, and where it ends
 Files = dict[str, str]  # what is written, by name; of the single file the name is empty
 
 
@@ -62,7 +64,17 @@ class Source:
         except (ValueError, RecursionError):
             return None
 
-    def whole_size(self, own: Mapping[str, Any], keys: Sequence[str], where: str = "") -> Any:
+    @property
+    def object(self) -> Content:
+        """The file's JSON, if that is an object; else an empty one."""
+        return self.json if isinstance(self.json, dict) else {}
+
+    def whole_size(
+        self,
+        own: Mapping[str, Any],
+        where: str = "",
+        keys: tuple[str, str] = ("width", "height"),
+    ) -> Size:
         """Return the width and height of a file's object, or else those requested.
 
         Raises
@@ -70,7 +82,7 @@ class Source:
         SceneError
             If there are none.
         """
-        if all(key in own for key in keys):
+        if own.keys() >= {*keys}:
             sizes = [own[key] for key in keys]
             if all(isinstance(n, float) and n.is_integer() for n in sizes):
                 return int(sizes[0]), int(sizes[1])  # as nerfstudio writes some
@@ -91,7 +103,7 @@ class Convention:
     name: str  # as it is typed
     title: str
     file: str  # what is written: the usual name of the file, or those in a folder
-    says: frozenset[Feature]  # which of FEATURES its files can say
+    says: tuple[Feature, ...]  # which of FEATURES its files can say
     # Whether a file may have the first pixel's centre at 0; False where its documents say 0.5, or
     # its files know no pixels.
     either_center: bool

@@ -39,33 +39,21 @@ def _has_oblong_pixels(camera: Camera) -> bool:
     return abs(height / width - 1) * longer > _NOTHING
 
 
-def _axes(camera: Camera) -> np.ndarray:
-    axes = camera.world_from_camera[:3, :3]
-    return axes / np.linalg.norm(axes, axis=0)
-
-
-def _is_mirrored(camera: Camera) -> bool:
-    return bool(np.linalg.det(camera.world_from_camera[:3, :3]) < 0)
-
-
 def _is_sheared(camera: Camera) -> bool:
-    axes = _axes(camera)
+    axes = camera.world_from_camera[:3, :3]
+    axes = axes / np.linalg.norm(axes, axis=0)
     return bool(np.abs(axes.T @ axes - np.eye(3)).max() > ORTHOGONAL)
-
-
-def _is_parallel(camera: Camera) -> bool:
-    return camera.projection is ORTHOGRAPHIC
-
-
-def _is_panorama(camera: Camera) -> bool:
-    return not camera.projection.is_linear
 
 
 SHIFT = Feature("a lens shift", "shift", _is_shifted)
 ASPECT = Feature("a pixel aspect other than 1", "pixel aspect", _has_oblong_pixels)
-PARALLEL = Feature("an orthographic projection", "orthographic", _is_parallel)
-PANORAMA = Feature("a panoramic projection", "panorama", _is_panorama)
-MIRRORED = Feature("mirrored axes", "mirrored", _is_mirrored)
+PARALLEL = Feature(
+    "an orthographic projection", "orthographic", lambda c: c.projection is ORTHOGRAPHIC
+)
+PANORAMA = Feature("a panoramic projection", "panorama", lambda c: not c.projection.is_linear)
+MIRRORED = Feature(
+    "mirrored axes", "mirrored", lambda c: np.linalg.det(c.world_from_camera[:3, :3]) < 0
+)
 SHEARED = Feature("axes that are not at right angles (a parent's scale)", "sheared", _is_sheared)
 
 FEATURES = SHIFT, ASPECT, PARALLEL, PANORAMA, MIRRORED, SHEARED

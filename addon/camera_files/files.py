@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from ..files.file_kinds import check_is_file
-from ..scene import Camera, SceneError
-from ..wording import count_of
+from ..scene import SceneError
+from ..wording import count_of, listed
 from .colmap import COLMAP
 from .convention import HALF, Convention, Files, Source, View
 from .gltf import GLTF
@@ -52,19 +52,14 @@ def texts(views: Sequence[View], convention: Convention, centers: str = HALF) ->
     if convention.write is None:
         raise SceneError(f"files of {convention.title} are read, not written: {', '.join(WRITTEN)}")
     for view in views:
-        check(view.camera, convention)
+        if lacking := convention.lacks(view.camera):
+            able = [own.name for own in WRITTEN.values() if not own.lacks(view.camera)]
+            do = f"{', '.join(able)} can" if able else "none of the conventions can"
+            raise SceneError(
+                f"Camera '{view.camera.name}' has {' and '.join(lacking)}, which "
+                f"{convention.title} cannot say: {do}."
+            )
     return convention.write(views, centers)
-
-
-def check(camera: Camera, convention: Convention) -> None:
-    """Raise a SceneError if a convention cannot say what a camera has."""
-    if lacking := convention.lacks(camera):
-        able = [own.name for own in WRITTEN.values() if not own.lacks(camera)]
-        do = f"{', '.join(able)} can" if able else "none of the conventions can"
-        raise SceneError(
-            f"Camera '{camera.name}' has {' and '.join(lacking)}, which {convention.title} cannot "
-            f"say: {do}."
-        )
 
 
 def read(
@@ -185,6 +180,4 @@ def number_of(view: View) -> int | None:
 
 
 def _names(views: Sequence[View]) -> str:
-    names = [view.name or str(number) for number, view in enumerate(views)]
-    more = len(names) - 5
-    return ", ".join(names[:5]) + (f" and {more} more" if more > 0 else "")
+    return listed([view.name or str(number) for number, view in enumerate(views)], 5)

@@ -16,6 +16,7 @@ from ..arrays import Floats
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from ..scene import Camera, Region, SceneError, ViewWindow
 from ..tracer.camera import pixel_size
+from .convention import Clip, Size, View
 
 # Blender's and OpenGL's camera space has +Y up and -Z forward; OpenCV's has +Y down, +Z forward.
 # This takes one to the other, and back.
@@ -96,7 +97,7 @@ def rotation_vector(r: Floats) -> Floats:
     """
     w, x, y, z = quaternion(r)
     along = np.array((x, y, z))
-    size = float(np.linalg.norm(along))
+    size = np.linalg.norm(along)
     if w < _HALF_TURN and along[np.argmax(np.abs(along))] < 0:
         along = -along
     return along * (2 * np.arctan2(size, w) / size if size else 2.0)
@@ -124,14 +125,14 @@ def inverse(matrix: Floats) -> Floats:
 def pinhole(
     k: Floats,
     camera_from_world: Floats,
-    size: tuple[int, int],
-    clip: tuple[float, float] | None,
+    size: Size,
     name: str,
     axes: Floats = OPENCV,
     projection: Projection = PERSPECTIVE,
     center: float = 0.5,
-) -> Camera:
-    """Return the camera of K (3, 3) and a matrix (4, 4) into a camera space.
+    clip: Clip | None = None,
+) -> View:
+    """Return the view of K (3, 3) and a matrix (4, 4) into a camera space.
 
     K has the centre of the first pixel at (center, center), and any scale: it is of homogeneous
     coordinates. Where its last number is negative, depths before the camera are (as in Kubric). A
@@ -155,18 +156,18 @@ def pinhole(
     window = ViewWindow(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)
     # K is of OpenCV's camera space, and so is its skew.
     world = inverse(OPENCV @ plain @ depth @ OPENCV @ axes @ camera_from_world)
-    return seen_from(world, window, size, clip, name, projection)
+    return seen_from(world, window, size, name, projection, clip)
 
 
 def seen_from(
     world_from_camera: Floats,
     window: ViewWindow,
-    size: tuple[int, int],
-    clip: tuple[float, float] | None,
+    size: Size,
     name: str,
-    projection: Projection = PERSPECTIVE,
-) -> Camera:
-    """Return a camera; a scale of its axes is taken into its window and clip range.
+    projection: Projection,
+    clip: Clip | None,
+) -> View:
+    """Return a view; a scale of its axes is taken into its window and clip range.
 
     A ray x right + y up + forward passes the same points if it is divided by forward's length.
 
@@ -186,7 +187,7 @@ def seen_from(
     matrix[:3, :3] /= (right, up, deep)
     unit = 1.0 if projection is ORTHOGRAPHIC else deep
     start, end = (deep * depth for depth in clip) if clip else _UNCLIPPED
-    return Camera(
+    camera = Camera(
         matrix,
         window.scaled(right / unit, up / unit),
         *size,
@@ -195,6 +196,7 @@ def seen_from(
         clip_end=end,
         name=name or "Camera",
     )
+    return View(camera, name, is_clipped=clip is not None)
 
 
 def rotation_of(matrix: Floats) -> Floats:

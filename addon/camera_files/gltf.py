@@ -24,7 +24,7 @@ from ..framing import SIZE
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Files, Source, View
+from .convention import Convention, Files, Size, Source, View
 from .features import PARALLEL
 from .gltf_file import as_specified, item, open_gltf, read_tree
 from .json_files import dumped, radians_of
@@ -72,9 +72,7 @@ def camera_of(view: View) -> Content:
 def _is_of(source: Source) -> bool:
     if source.path.is_dir():
         return False
-    content = source.json
-    is_text = isinstance(content, dict) and "asset" in content
-    return is_text or source.path.read_bytes()[:4] == b"glTF"
+    return "asset" in source.object or source.path.read_bytes()[:4] == b"glTF"
 
 
 def _read(source: Source) -> list[View]:
@@ -105,7 +103,7 @@ def _view(own: Content, label: str, name: str, world: Floats, source: Source) ->
         aspect: float | None = across / up
     else:
         _number(lens, label, "yfov")
-        up = float(np.tan(radians_of(lens, "yfov", f"{label}: ") / 2))
+        up = np.tan(radians_of(lens, "yfov", f"{label}: ") / 2)
         aspect = _number(lens, label, "aspectRatio") if "aspectRatio" in lens else None
     size = _size(own, label, aspect, source)
     across = up * size[0] / size[1]
@@ -117,16 +115,13 @@ def _view(own: Content, label: str, name: str, world: Floats, source: Source) ->
         )
     world = world / (*axes, 1.0)
     far = _number(lens, label, "zfar") if "zfar" in lens else np.inf
-    return View(
-        frame.seen_from(
-            world,
-            ViewWindow(-across, across, -up, up),
-            size,
-            (_number(lens, label, "znear"), float(far)),
-            name,
-            ORTHOGRAPHIC if parallel else PERSPECTIVE,
-        ),
+    return frame.seen_from(
+        world,
+        ViewWindow(-across, across, -up, up),
+        size,
         name,
+        ORTHOGRAPHIC if parallel else PERSPECTIVE,
+        (_number(lens, label, "znear"), far),
     )
 
 
@@ -137,7 +132,7 @@ def _number(lens: Content, label: str, key: str) -> float:
     return float(value)
 
 
-def _size(own: Content, label: str, aspect: float | None, source: Source) -> tuple[int, int]:
+def _size(own: Content, label: str, aspect: float | None, source: Source) -> Size:
     """Return the picture's size: of the extras, or the requested one, with the aspect ratio."""
     extras = own.get("extras")
     width, height = source.size
@@ -146,7 +141,7 @@ def _size(own: Content, label: str, aspect: float | None, source: Source) -> tup
         width = SIZE[0] if height is None else max(1, round(height * ratio))
     height = height or max(1, round(width / ratio))
     asked = Source(source.path, (width, height))
-    size: tuple[int, int] = asked.whole_size(extras if isinstance(extras, dict) else {}, _KEYS)
+    size = asked.whole_size(extras if isinstance(extras, dict) else {})
     if aspect is not None and abs(size[0] / size[1] / aspect - 1) > 1 / min(size):
         raise SceneError(
             f"{label} has the aspect ratio {aspect:.6g}, not that of {size[0]} x {size[1]} "
@@ -155,13 +150,11 @@ def _size(own: Content, label: str, aspect: float | None, source: Source) -> tup
     return size
 
 
-_KEYS = "width", "height"
-
 GLTF = Convention(
     "gltf",
     "glTF",
     "camera.gltf",
-    frozenset((PARALLEL,)),
+    (PARALLEL,),
     False,
     _write,
     _is_of,

@@ -5,14 +5,15 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ..arrays import Floats
-from ..files.checked_json import Content, numbers, objects
+from ..files.checked_json import ENDLESS, Content, number, numbers, objects
 from ..scene import Camera, SceneError
-from .convention import CENTERS, FIRST, HALF, Files, Source, View
+from .convention import CENTERS, FIRST, Clip, Files, Source, View
 
 CENTERS_KEY = "pixel_centers"
 _DISTORTIONS = (  # by the names of OpenCV, and of those who use its lenses
@@ -43,10 +44,15 @@ def first_center(content: Mapping[str, Any]) -> float:
     SceneError
         If it names neither.
     """
-    named = content.get(CENTERS_KEY, HALF)
-    if named not in CENTERS:
-        raise SceneError(f"{CENTERS_KEY} is {named!r}; it must be {' or '.join(CENTERS)}")
-    return FIRST[named]
+    return FIRST[one_of(content, CENTERS_KEY, "", CENTERS)]
+
+
+def one_of(content: Mapping[str, Any], key: str, where: str, known: Sequence[str]) -> str:
+    """Return one of some words that a key may have, the first where it is not there."""
+    word = content.get(key, known[0])
+    if word not in known:
+        raise SceneError(f"{where}{key} is {word!r}; it must be {' or '.join(known)}")
+    return str(word)
 
 
 def offset_of(centers: str) -> float:
@@ -54,24 +60,24 @@ def offset_of(centers: str) -> float:
     return FIRST[centers] - 0.5
 
 
-def clip_of(content: Content, where: str, names: Sequence[str]) -> tuple[float, float] | None:
+def clip_of(content: Content, where: str) -> Clip | None:
     """Return the clip range that an object says; None if it says none."""
-    if not any(name in content for name in names):
+    if content.keys().isdisjoint(("clip_start", "clip_end")):
         return None
-    start, end = names
-    far = float("inf") if content.get(end) in (None, "inf") else numbers(content, end, where, ())
-    return float(numbers(content, start, where, ())), float(far)
+    is_endless = content.get("clip_end") in (None, ENDLESS)
+    far = np.inf if is_endless else number(content, "clip_end", where)
+    return number(content, "clip_start", where), far
 
 
 def clip_end(camera: Camera) -> float | str:
     """Return a clip end as JSON can hold it."""
-    return "inf" if camera.clip_end == float("inf") else camera.clip_end
+    return ENDLESS if camera.clip_end == np.inf else camera.clip_end
 
 
 def has(source: Source, *keys: str) -> bool:
     """Return whether a JSON object, or the first of its list `frames`, has these keys."""
-    content = source.json
-    if isinstance(content, dict) and isinstance(many := content.get("frames"), list):
+    content: Any = source.object
+    if isinstance(many := content.get("frames"), list):
         content = many[0] if many else None
     return isinstance(content, dict) and content.keys() >= {*keys}
 
@@ -102,7 +108,7 @@ def _is_any(value: Any) -> bool:
 
 def bodies(content: Content) -> list[tuple[Content, str]]:
     """Return the objects of the list `frames`, or the whole one, each as messages call it."""
-    return objects(content, "frames") if "frames" in content else [(content, "")]
+    return list(objects(content, "frames")) if "frames" in content else [(content, "")]
 
 
 def written(head: Content, views: Sequence[View], body: Callable[[View], Content]) -> Files:
@@ -116,11 +122,10 @@ def written(head: Content, views: Sequence[View], body: Callable[[View], Content
     return {"": dumped(head | (every[0] if len(every) == 1 else {"frames": every}))}
 
 
-def view_of(body: Content, camera: Camera, is_clipped: bool = True) -> View:
-    """Return the view of such an object."""
+def of_frame(body: Content, view: View) -> View:
+    """Return the view of such an object, with its frame."""
     number = body.get("frame")
-    frame = number if isinstance(number, int) else None
-    return View(camera, str(body.get("name", "")), frame, is_clipped)
+    return replace(view, frame=number) if isinstance(number, int) else view
 
 
 def flat(content: Content, key: str, where: str, count: int) -> Floats:
@@ -139,7 +144,7 @@ def radians_of(content: Content, key: str, where: str) -> float:
     SceneError
         If it is half a turn or more, as an angle in degrees is.
     """
-    angle = float(numbers(content, key, where, ()))
+    angle = number(content, key, where)
     if angle >= np.pi:
         raise SceneError(f"{where}{key} is {angle:g}: it must be in radians, not in degrees")
     return angle

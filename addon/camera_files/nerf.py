@@ -15,14 +15,15 @@ instant-ngp; what says neither cx nor cy has them in the picture's middle.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from ..files.checked_json import Content, numbers, objects
+from ..files.checked_json import Content, number, numbers, objects
 from ..projections import PERSPECTIVE, PROJECTIONS
 from ..scene import SceneError
 from . import frame
-from .convention import HALF, Convention, Files, Source, View
+from .convention import HALF, Convention, Files, Size, Source, View
 from .features import ASPECT, SHIFT
 from .json_files import (
     CENTERS_KEY,
@@ -73,16 +74,13 @@ def _lens(view: View, offset: float) -> Content:
     }
 
 
-def _is_of(source: Source) -> bool:
-    return has(source, "transform_matrix")
-
-
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
-    notes = []
-    for key in ("applied_transform", "applied_scale"):
-        if key in content:
-            notes.append(f"{key} is not undone: the world is the file's own")
+    content = source.object
+    notes = [
+        f"{key} is not undone: the world is the file's own"
+        for key in ("applied_transform", "applied_scale")
+        if key in content
+    ]
     if content.get("rolling_shutter"):
         notes.append("rolling_shutter is not applied: a camera does not move within a picture")
     return [
@@ -92,7 +90,7 @@ def _read(source: Source) -> list[View]:
 
 
 def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> View:
-    size = source.whole_size(body, ("w", "h"), where)
+    size = source.whole_size(body, where, ("w", "h"))
     others = [key for key in sorted(_OTHER_PROJECTIONS) if key in body]
     if body.get("camera_model", _MODELS[0]) not in _MODELS:
         others.append("camera_model")
@@ -100,7 +98,7 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     center = first_center(body)
     fx, fy = _focal_lengths(body, where, size)
     middle = [
-        float(numbers(body, key, where, ())) + 0.5 - center if key in body else n / 2
+        number(body, key, where) + 0.5 - center if key in body else n / 2
         for key, n in zip(("cx", "cy"), size, strict=True)
     ]
     world = np.eye(4)
@@ -111,24 +109,24 @@ def _view(body: Content, where: str, source: Source, notes: tuple[str, ...]) -> 
     name = str(body.get("file_path", "")).replace("\\", "/").rpartition("/")[2]
     k = frame.matrix_of(fx, fy, *middle)
     matrix = frame.inverse(world)
-    camera = frame.pinhole(k, matrix, size, None, name, np.eye(4))
-    return View(camera, name, is_clipped=False, notes=notes)
+    return replace(frame.pinhole(k, matrix, size, name, np.eye(4)), notes=notes)
 
 
-def _focal_lengths(body: Content, where: str, size: tuple[int, int]) -> tuple[float, float]:
+def _focal_lengths(body: Content, where: str, size: Size) -> tuple[float, float]:
     """Return both focal lengths in pixels; a missing one is equal to the other."""
     found = []
     for axis, n in zip("xy", size, strict=True):
         if f"{axis}_fov" in body:
-            angle = np.radians(float(numbers(body, f"{axis}_fov", where, ())))
-            found.append(n / 2 / float(np.tan(angle / 2)))
+            angle = np.radians(number(body, f"{axis}_fov", where))
         elif f"fl_{axis}" in body:
-            found.append(float(numbers(body, f"fl_{axis}", where, ())))
+            found.append(number(body, f"fl_{axis}", where))
+            continue
         elif f"camera_angle_{axis}" in body:
             angle = radians_of(body, f"camera_angle_{axis}", where)
-            found.append(n / 2 / float(np.tan(angle / 2)))
         else:
             found.append(0.0)
+            continue
+        found.append(n / 2 / np.tan(angle / 2))
     x, y = found
     if not (x or y):
         raise SceneError(f"{where}fl_x and camera_angle_x are missing: it says no focal length")
@@ -139,9 +137,9 @@ NERF = Convention(
     "nerf",
     "NeRF (instant-ngp, nerfstudio)",
     "transforms.json",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     True,
     _write,
-    _is_of,
+    lambda source: has(source, "transform_matrix"),
     _read,
 )

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..files.checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE, PROJECTIONS
-from ..scene import Camera, SceneError
+from ..scene import Camera
 from . import frame
 from .convention import Convention, Files, Source, View
 from .features import ASPECT, MIRRORED, SHIFT
@@ -29,16 +29,16 @@ from .json_files import (
     first_center,
     flat,
     has,
+    of_frame,
     offset_of,
+    one_of,
     refuse_lens,
-    view_of,
     written,
 )
 
 _FORMULA = (
     "x = K (R X + t); (x0 / x2, x1 / x2) is in pixels from the picture's upper left, rows downwards"
 )
-_CLIP = "clip_start", "clip_end"
 
 
 def _write(views: Sequence[View], centers: str) -> Files:
@@ -72,12 +72,8 @@ def body_of(camera: Camera, offset: float = 0.0) -> Content:
     }
 
 
-def _is_of(source: Source) -> bool:
-    return has(source, "K", "R", "t")
-
-
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     center = first_center(content)
     return [_view(content | body, where, center, source) for body, where in bodies(content)]
 
@@ -86,32 +82,28 @@ def _view(body: Content, where: str, center: float, source: Source) -> View:
     refuse_lens(body, where)
     k = numbers(body, "K", where, (3, 3))
     matrix = frame.pose(numbers(body, "R", where, (3, 3)), flat(body, "t", where, 3))
-    if _named(body, "up", where, ("z", "y")) == "y":
+    if one_of(body, "up", where, ("z", "y")) == "y":
         matrix = matrix @ frame.Y_UP_FROM_Z_UP
-    kind = _named(body, "projection", where, (PERSPECTIVE.name, ORTHOGRAPHIC.name))
-    clip = clip_of(body, where, _CLIP)
-    size = source.whole_size(body, ("width", "height"), where)
-    name = str(body.get("name", ""))
-    projection = PROJECTIONS[kind]
-    camera = frame.pinhole(k, matrix, size, clip, name, projection=projection, center=center)
-    return view_of(body, camera, is_clipped=clip is not None)
-
-
-def _named(body: Content, key: str, where: str, known: Sequence[str]) -> str:
-    """Return one of some words that a key may have, the first where it is not there."""
-    word = body.get(key, known[0])
-    if word not in known:
-        raise SceneError(f"{where}{key} is {word!r}; it must be {' or '.join(known)}")
-    return str(word)
+    kind = one_of(body, "projection", where, (PERSPECTIVE.name, ORTHOGRAPHIC.name))
+    view = frame.pinhole(
+        k,
+        matrix,
+        source.whole_size(body, where),
+        str(body.get("name", "")),
+        projection=PROJECTIONS[kind],
+        center=center,
+        clip=clip_of(body, where),
+    )
+    return of_frame(body, view)
 
 
 OPENCV = Convention(
     "opencv",
     "OpenCV",
     "camera.json",
-    frozenset((SHIFT, ASPECT, MIRRORED)),
+    (SHIFT, ASPECT, MIRRORED),
     True,
     _write,
-    _is_of,
+    lambda source: has(source, "K", "R", "t"),
     _read,
 )

@@ -9,8 +9,6 @@ are no files of matrices: this JSON is ours, row by row.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ..arrays import Floats
@@ -18,18 +16,14 @@ from ..files.checked_json import Content, numbers
 from ..projections import ORTHOGRAPHIC, PERSPECTIVE
 from ..scene import Camera, SceneError, ViewWindow
 from . import frame
-from .convention import Convention, Files, Source, View
+from .convention import Clip, Convention, Source, View
 from .features import ASPECT, MIRRORED, PARALLEL, SHEARED, SHIFT
-from .json_files import bodies, has, refuse_lens, view_of, written
+from .json_files import bodies, has, of_frame, refuse_lens, written
 
 _FORMULA = (
     "clip = projection view (X, 1); (clip0 / clip3, clip1 / clip3) is from -1 to 1 in the picture, "
     "from the left and upwards"
 )
-
-
-def _write(views: Sequence[View], centers: str) -> Files:
-    return written({"convention": "opengl", "formula": _FORMULA}, views, _body)
 
 
 def _body(view: View) -> Content:
@@ -66,68 +60,56 @@ def projection(camera: Camera) -> Floats:
     return out
 
 
-def _is_of(source: Source) -> bool:
-    return has(source, "projection", "view")
-
-
-def _read(source: Source) -> list[View]:
-    return [_view(source.json | body, where, source) for body, where in bodies(source.json)]
-
-
 def _view(body: Content, where: str, source: Source) -> View:
+    body = source.object | body
     refuse_lens(body, where)
     p = numbers(body, "projection", where, (4, 4))
     world = frame.inverse(numbers(body, "view", where, (4, 4)))
-    parallel = bool(np.array_equal(p[3], (0, 0, 0, 1)))
+    parallel = np.array_equal(p[3], (0, 0, 0, 1))
     other = 2 if parallel else 3  # the column that has to be 0
     if not parallel and not np.array_equal(p[3], (0, 0, -1, 0)):
         raise SceneError(f"{where}projection must end in the row 0 0 -1 0, or 0 0 0 1")
     if p[0, other] or p[1, other] or p[1, 0] or p[2, 0] or p[2, 1] or not p[0, 0] * p[1, 1]:
         raise SceneError(f"{where}projection is not of the form that glFrustum or glOrtho makes")
     # x on the window is X / -Z, or X: where the projection has -1 and 1 are its edges.
-    signed = np.sign((p[0, 0], p[1, 1]))
-    a = np.abs((p[0, 0], p[1, 1]))
+    ends = np.diag(p)[:2]
+    a = np.abs(ends)
     middle = -p[:2, 3] if parallel else p[:2, 2]
     low, high = (middle - 1) / a, (middle + 1) / a
-    plain = np.diag((*signed, 1.0, 1.0))
+    plain = np.diag((*np.sign(ends), 1.0, 1.0))
     plain[0, 1] = p[0, 1] / a[0]
-    size = source.whole_size(body, ("width", "height"), where)
-    camera = frame.seen_from(
+    view = frame.seen_from(
         world @ np.linalg.inv(plain),
         ViewWindow(low[0], high[0], low[1], high[1]),
-        size,
-        _clip(p, parallel, where),
+        source.whole_size(body, where),
         str(body.get("name", "")),
         ORTHOGRAPHIC if parallel else PERSPECTIVE,
+        _clip(p, parallel, where),
     )
-    return view_of(body, camera)
+    return of_frame(body, view)
 
 
-def _clip(p: Floats, parallel: bool, where: str) -> tuple[float, float]:
+def _clip(p: Floats, parallel: bool, where: str) -> Clip:
     """Return the depths that a projection has at -1 and 1."""
-    c, d = (float(v) for v in p[2, 2:])
-    with np.errstate(all="ignore"):
-        if parallel:
-            near, far = (np.float64(d + 1) / c, np.float64(d - 1) / c)
-        else:
-            near, far = np.float64(d) / (c - 1), np.float64(d) / (c + 1)
+    c, d = p[2, 2:]
+    near, far = ((d + 1) / c, (d - 1) / c) if parallel else (d / (c - 1), d / (c + 1))
     if c == -1 and not parallel:
-        far = np.float64(np.inf)
+        far = np.inf
     if not near < far:
         raise SceneError(
             f"{where}projection has its near plane at {near:g} and its far plane at {far:g}: "
             "depths from -1 to 1 are read, as OpenGL has them"
         )
-    return float(near), float(far)
+    return near, far
 
 
 OPENGL = Convention(
     "opengl",
     "OpenGL",
     "camera.json",
-    frozenset((SHIFT, ASPECT, PARALLEL, MIRRORED, SHEARED)),
+    (SHIFT, ASPECT, PARALLEL, MIRRORED, SHEARED),
     False,
-    _write,
-    _is_of,
-    _read,
+    lambda views, _: written({"convention": "opengl", "formula": _FORMULA}, views, _body),
+    lambda source: has(source, "projection", "view"),
+    lambda source: [_view(body, where, source) for body, where in bodies(source.object)],
 )

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
 from ..arrays import Bools, Floats
 from ..pictures.bounds import SNAPPING
 from ..pictures.renderers import Renderer
-from ..scene import Camera, SceneError
+from ..scene import Camera
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from .case import Case
@@ -48,69 +49,36 @@ def _of_depths(
 ) -> Iterator[str]:
     """Yield the clip range that separates the depths; else how far apart surfaces must be."""
     camera, renderer = case.scene.camera, case.picture.sampling.renderer
-    depths = _Depths(camera, renderer, frame, causes, where)
+    none = np.zeros(causes.cause.shape, bool)
+    tied, clipped = (where.get(cause, none) for cause in (DEPTH_TIE, CLIP_PLANE))
+    gap, off = causes.figure[tied], causes.figure[clipped]
+    bound = np.concatenate((causes.allowed[tied], causes.allowed[clipped]))
+    at_clip = _clipped_depth(camera, renderer, off, bound[len(gap) :])
+    depth = np.concatenate((frame.t[tied], at_clip))
+    # What rounding adds to the buffer's step is the same in any clip range.
+    rest = np.maximum(bound - renderer.step(camera, depth), 0)
     for other in _cameras(camera, frame):
-        if depths.left(other) <= allowed:
-            yield _clip_range(camera, other, depths.told_apart(other))
+        told = renderer.step(other, depth) + rest
+        ends = np.abs(at_clip - np.array([[other.clip_start], [other.clip_end]]))
+        if (np.append(gap, ends.min(axis=0)) <= told).sum() <= allowed:
+            yield _clip_range(camera, other, float(np.median(told)))
             return
     if DEPTH_TIE in where:
-        gap, told = (v[where[DEPTH_TIE]] for v in (causes.figure, causes.allowed))
+        apart = _up(2 * float(np.max(bound[: len(gap)])))
         yield (
             f"move surfaces that lie {np.median(gap):.2g} m behind one another at least "
-            f"{_up(2 * float(np.max(told))):.2g} m apart, or leave one of them out"
+            f"{apart:.2g} m apart, or leave one of them out"
         )
 
 
-class _Depths:
-    """The depths of surfaces too close to each other, or to a clip plane, for float32."""
+def _clipped_depth(camera: Camera, renderer: Renderer, off: Floats, bound: Floats) -> Floats:
+    """Return the depths of surfaces `off` (n,) metres from a clip plane, (n,) metres.
 
-    def __init__(
-        self,
-        camera: Camera,
-        renderer: Renderer,
-        frame: Frame,
-        causes: Causes,
-        where: Mapping[Cause, Bools],
-    ) -> None:
-        self._renderer = renderer
-        none = np.zeros(causes.cause.shape, bool)
-        tied, clipped = (where.get(cause, none) for cause in (DEPTH_TIE, CLIP_PLANE))
-        self._gap = causes.figure[tied]
-        bounds = causes.allowed[tied], causes.allowed[clipped]
-        places = frame.t[tied], _clipped_depth(camera, renderer, causes, clipped)
-        self._ties, self._clipped = places
-        # What rounding adds to the buffer's step is the same in any clip range.
-        self._rest = [
-            np.maximum(bound - renderer.step(camera, t), 0)
-            for bound, t in zip(bounds, places, strict=True)
-        ]
-
-    def left(self, camera: Camera) -> int:
-        """Return how many pixels another camera leaves undecided."""
-        step, (tie, clip) = self._renderer.step, self._rest
-        tied = self._gap <= step(camera, self._ties) + tie
-        ends = np.abs(self._clipped - np.array([[camera.clip_start], [camera.clip_end]]))
-        clipped = ends.min(axis=0) <= step(camera, self._clipped) + clip
-        return int(tied.sum() + clipped.sum())
-
-    def told_apart(self, camera: Camera) -> float:
-        """Return the least distance at which another camera separates surfaces, in metres."""
-        depths = self._ties, self._clipped
-        found = [
-            self._renderer.step(camera, t) + r for t, r in zip(depths, self._rest, strict=True)
-        ]
-        return float(np.median(np.concatenate(found)))
-
-
-def _clipped_depth(camera: Camera, renderer: Renderer, causes: Causes, where: Bools) -> Floats:
-    """Return the depths of surfaces at a distance `figure` from a clip plane, (n,) metres.
-
-    Of the four places that do, it is the one with the bound nearest to the pixel's.
+    Of the four places that are, it is the one with the bound nearest to the pixel's.
     """
-    off, bound = causes.figure[where], causes.allowed[where]
     start, end = camera.clip_start, camera.clip_end
     places = np.array([start + off, start - off, end - off, end + off])
-    apart = np.abs([renderer.step(camera, t) - bound for t in places])
+    apart = np.abs(renderer.step(camera, places) - bound)
     return places[apart.argmin(axis=0), np.arange(len(off))]
 
 
@@ -120,23 +88,20 @@ def _cameras(camera: Camera, frame: Frame) -> Iterator[Camera]:
     if not len(seen):
         return
     nearest, farthest = float(np.min(seen)), float(np.max(seen))
-    ends = (camera.clip_end, *(e for e in [_up(farthest / _ROOM)] if 0 < e < camera.clip_end))
-    ends = (*ends, _up(2 * camera.clip_end), _up(20 * camera.clip_end))
+    ends = [camera.clip_end, _up(2 * camera.clip_end), _up(20 * camera.clip_end)]
+    if 0 < (lower := _up(farthest / _ROOM)) < camera.clip_end:
+        ends.insert(1, lower)
     starts = [camera.clip_start]
     if camera.clip_start > 0:
         low, high = np.floor(np.log10(camera.clip_start)), np.log10(max(nearest, 1e-30))
         decades = 10.0 ** np.arange(low, high + 1)
-        raised = [float(digit * d) for d in decades for digit in _ROUND]
-        raised = [s for s in raised if camera.clip_start < s <= _ROOM * nearest]
-        starts += [s for s in raised if s <= _NEAR * nearest][-1:] + raised
+        raised = np.outer(decades, _ROUND).ravel()
+        raised = raised[(camera.clip_start < raised) & (raised <= _ROOM * nearest)]
+        starts += [*raised[raised <= _NEAR * nearest][-1:], *raised]
         starts += [float(f"{camera.clip_start * share:.1g}") for share in (0.5, 0.1)]
-    for end in ends:
-        for start in starts:
-            if (start, end) != (camera.clip_start, camera.clip_end):
-                try:
-                    yield replace(camera, clip_start=start, clip_end=end)
-                except SceneError:
-                    continue
+    for end, start in product(ends, starts):
+        if (start, end) != (camera.clip_start, camera.clip_end):
+            yield replace(camera, clip_start=start, clip_end=end)
 
 
 def _clip_range(camera: Camera, other: Camera, told: float) -> str:

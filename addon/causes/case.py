@@ -70,11 +70,6 @@ def without_colors(case: Case) -> Case:
     )
 
 
-def no_variants() -> tuple[Variant, ...]:
-    """Return no variants: nothing but the scene itself is known."""
-    return ()
-
-
 @dataclass(frozen=True, eq=False)
 class Case:
     """All that a comparison takes; the checks, the self-check and the faults take it, too."""
@@ -93,7 +88,7 @@ class Case:
     tracer: Tracer | None = None  # where whole pictures are traced, if not here
     # Makes the scene with faults for which Blender is needed, one after another; called only if
     # pixels are unexplained.
-    variants: Callable[[], Iterable[Variant]] = no_variants
+    variants: Callable[[], Iterable[Variant]] = tuple
     background: Colors | None = None  # (4,) the scene's own, where it was put before another one
 
     def __post_init__(self) -> None:
@@ -118,11 +113,8 @@ class Case:
     def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
         """Return the case with the same change made to the scene and to the alternatives."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
-        scene = change(self.scene)
-        behind = self.behind
-        if behind:
-            behind = replace(behind, case=behind.case.with_scenes(change))
-        return replace(self.in_scene(scene), alternatives=others, behind=behind)
+        behind = self.behind and replace(self.behind, case=self.behind.case.with_scenes(change))
+        return replace(self.in_scene(change(self.scene)), alternatives=others, behind=behind)
 
     def in_scene(self, scene: Scene) -> Case:
         """Return the case with another scene."""

@@ -7,7 +7,7 @@ difference picture read the record.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple, Self
 
@@ -17,19 +17,10 @@ from ..arrays import Bools, Bytes, Floats, Integers, Places
 
 Color = tuple[float, float, float]
 
-# A cause explains why a pixel differs; but these do not, and have counts of their own in the JSON.
-COUNTED_APART = ("agree", "not_decidable", "unexplained", "not_traced")
-
 
 @dataclass(frozen=True, eq=False)
 class Cause(int):
-    """Why a pixel differs, or that it agrees. It compares and sorts as its number.
-
-    Raises
-    ------
-    ValueError
-        If the record contradicts itself.
-    """
+    """Why a pixel differs, or that it agrees. It compares and sorts as its number."""
 
     number: int  # `frame.npz` stores it: it stays
     key: str  # its name in JSON
@@ -40,7 +31,8 @@ class Cause(int):
     # Linear RGB in the difference picture, which colour-blind readers tell apart, too; None for
     # pixels that agree.
     color: Color | None = None
-    explains: bool = False  # the pixel differs, and this is why
+    # The pixel differs, and this is why; the four below have counts of their own in the JSON.
+    explains: bool = False
     warns: bool = False  # with such a pixel the verdict is no better than 'warnings'
     rounding: bool = False  # Blender's own float32 arithmetic accounts for the pixel
     see_through: bool = False  # whole surfaces have it: they stay visible in the difference picture
@@ -54,27 +46,6 @@ class Cause(int):
     def __new__(cls, number: int, *_: object, **__: object) -> Self:
         """Return the record as an integer, its number."""
         return super().__new__(cls, number)
-
-    def __post_init__(self) -> None:
-        for rule, holds in self._rules():
-            if not holds:
-                raise ValueError(f"the cause '{self.key}' contradicts itself: {rule}")
-
-    def _rules(self) -> Iterator[tuple[str, bool]]:
-        """Yield each rule for records, and whether this one keeps it."""
-        apart = self.key in COUNTED_APART
-        of_index = self.unit == "index"
-        of_figure = bool(self.unit) and not of_index
-        yield "it must explain a difference, or be counted apart", self.explains != apart
-        may_warn = self.explains or self.key == "not_decidable"
-        yield "only what explains a difference warns", may_warn or not self.warns
-        yield "only what explains a difference is rounding", self.explains or not self.rounding
-        yield (
-            "only a pixel that agrees has no colour",
-            (self.color is None) == (self.key == "agree"),
-        )
-        yield "a figure and its unit go together", of_figure == ("{figure" in self.sentence)
-        yield "an index and its name go together", of_index == ("{name" in self.sentence)
 
     def in_words(self, figure: float, allowed: float, name: object = "") -> str:
         """Return the sentence with a pixel's numbers, or the name that its index stands for."""

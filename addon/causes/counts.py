@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from dataclasses import asdict, dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,16 +26,12 @@ class Counts:
 
     total: int
     agree: int
+    differ: int
     explained: int
     unexplained: int
     not_decidable: int
     not_traced: int
     by_cause: Mapping[str, int]  # by the causes' keys, but for pixels that agree or are not traced
-
-    @property
-    def differ(self) -> int:
-        """Those that differ, explained or not."""
-        return self.explained + self.unexplained
 
     def of_causes(self) -> Iterator[tuple[Cause, int]]:
         """Yield the causes that some pixels have, and how many do."""
@@ -46,20 +42,23 @@ class Counts:
     @classmethod
     def of(cls, cause: Bytes) -> Counts:
         """Count pixels of any shape by the numbers of their causes."""
-        return cls(**_counted(cause))
+        count = {c: int((cause == c).sum()) for c in sorted(CAUSES)}
+        explained = sum(n for c, n in count.items() if c.explains)
+        return cls(
+            cause.size,
+            count[AGREE],
+            explained + count[UNEXPLAINED],
+            explained,
+            count[UNEXPLAINED],
+            count[NOT_DECIDABLE],
+            count[NOT_TRACED],
+            {c.key: n for c, n in count.items() if c not in (AGREE, NOT_TRACED)},
+        )
 
     def to_dict(self) -> dict[str, object]:
-        """Return them as JSON can hold them."""
-        return {
-            "total": self.total,
-            "agree": self.agree,
-            "differ": self.differ,
-            "explained": self.explained,
-            "unexplained": self.unexplained,
-            "not_decidable": self.not_decidable,
-            "not_traced": self.not_traced,
-            "by_cause": dict(self.by_cause),
-        }
+        """Return them as JSON can hold them; what is not known is left out."""
+        known = {name: value for name, value in asdict(self).items() if value is not None}
+        return {k: v._asdict() if hasattr(v, "_asdict") else v for k, v in known.items()}
 
 
 class NotJudged(NamedTuple):
@@ -89,19 +88,6 @@ class PixelCounts(Counts):
     behind: BehindCount | None = None  # None: it was not judged
     unexplained_shows: Shows | None = None  # owners of unexplained pixels, if known
 
-    def to_dict(self) -> dict[str, object]:
-        """Return them as JSON can hold them."""
-        out = super().to_dict()
-        out["interior"] = self.interior.to_dict()
-        out["boundary"] = self.boundary.to_dict()
-        out["examples"] = dict(self.examples)
-        out["not_judged"] = self.not_judged._asdict()
-        if self.behind:
-            out["behind"] = self.behind._asdict()
-        if self.unexplained_shows:
-            out["unexplained_shows"] = self.unexplained_shows._asdict()
-        return out
-
 
 def count_pixels(
     causes: Causes,
@@ -127,14 +113,12 @@ def count_pixels(
     by_feature: Counter[str] = Counter()
     for number, many in zip(*np.unique(blind, return_counts=True), strict=True):
         by_feature[features[number]] += int(many)
-    whole = _counted(cause)
+    whole = Counts.of(cause)
     return PixelCounts(
-        **whole,
+        **vars(whole),
         interior=Counts.of(cause[~at_boundary]),
         boundary=Counts.of(cause[at_boundary]),
-        examples={
-            c.key: _places(cause == c) for c in sorted(CAUSES) if whole["by_cause"].get(c.key)
-        },
+        examples={c.key: _places(cause == c) for c, _ in whole.of_causes()},
         not_judged=NotJudged(
             len(blind), len(blind) / max(cause.size, 1), dict(by_feature.most_common())
         ),
@@ -143,21 +127,6 @@ def count_pixels(
         else BehindCount(int(causes.behind.sum()), int((causes.behind & wrong).sum())),
         unexplained_shows=identity and identity.shows(wrong),
     )
-
-
-def _counted(cause: Bytes) -> dict[str, Any]:
-    """Return the counts as the fields of `Counts`."""
-    count = {c: int((cause == c).sum()) for c in sorted(CAUSES)}
-    apart = UNEXPLAINED, NOT_DECIDABLE
-    return {
-        "total": cause.size,
-        "agree": count[AGREE],
-        "explained": sum(n for c, n in count.items() if c.explains),
-        "unexplained": count[UNEXPLAINED],
-        "not_decidable": count[NOT_DECIDABLE],
-        "not_traced": count[NOT_TRACED],
-        "by_cause": {c.key: n for c, n in count.items() if c.explains or c in apart},
-    }
 
 
 def _places(where: Bools) -> list[list[int]]:

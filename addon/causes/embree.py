@@ -110,7 +110,8 @@ class _Large(NamedTuple):
 def _large(camera: Camera, mesh: Mesh, instance: Instance) -> list[_Large]:
     """Return the triangles of an instance that Embree may enlarge so."""
     with np.errstate(over="ignore", invalid="ignore"):
-        box = transform_points(instance.world_from_object, _box(mesh))
+        corners = np.array(np.meshgrid(*mesh.bounds.T)).reshape(3, -1)
+        box = transform_points(instance.world_from_object, corners)
         if not _size(camera, box.T, np.asarray(np.ptp(box, axis=1).sum())) * TOLERANCE > SNAPPING:
             return []  # all of the mesh is smaller than that
         world = transform_points(instance.world_from_object, mesh.vertices.T.astype(np.float64))
@@ -119,11 +120,6 @@ def _large(camera: Camera, mesh: Mesh, instance: Instance) -> list[_Large]:
         size = _size(camera, corners, edges)
         large = np.flatnonzero((size * TOLERANCE > SNAPPING) & np.isfinite(size))
     return [_Large(float(size[n]), int(n), corners[n]) for n in large]
-
-
-def _box(mesh: Mesh) -> Floats:
-    """Return the corners of the box around a mesh, (3, 8), in object space."""
-    return np.array(np.meshgrid(*mesh.bounds.T)).reshape(3, -1)
 
 
 def _size(camera: Camera, points: Array, length: Array) -> Array:

@@ -82,11 +82,11 @@ class Excused:
         if self.too_much:
             share = f"{100 * self.share:.1f} % of this picture rests on rounding alone"
             found.insert(0, (f"{share}: {_named(self.by_cause)}", self.advice))
-        said: dict[str, None] = {}  # what helps several is said once
+        said: set[str] = set()  # what helps several is said once
         for line, advice in found:
             yield line
             yield from (f"  to have it judged, {a}" for a in advice if a not in said)
-            said.update(dict.fromkeys(advice))
+            said.update(advice)
         if more := len(self.objects[_TOLD:]):
             yield f"nor were {more:,} other objects judged"
 

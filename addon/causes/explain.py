@@ -23,10 +23,9 @@ from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
 from .case import Case
 from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause, Causes
-from .checks import anti_aliasing, clip, color, edges, hidden, identity, unmodelled
+from .checks import anti_aliasing, behind, clip, color, edges, hidden, identity, unmodelled
 from .checks.anti_aliasing import ANTI_ALIASING
 from .checks.background import Background, find_background
-from .checks.behind import wrong_behind
 from .checks.clip import CLIP_PLANE
 from .checks.color import COLOR
 from .checks.edges import DEPTH_TIE, EDGE
@@ -132,11 +131,7 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
         yield from scaled(_checked(pixels, [coloring]), 0.0, _OPENING)
         yield from scaled(_some_first(pixels, others), _OPENING, 1 - _OPENING)
     pixels.give(pixels.open, UNEXPLAINED)
-    looking = wrong_behind(case, frame, find_causes)
-    behind, wrong = yield from scaled(looking, 1.0, 0.0)
-    out.behind = behind if behind.any() else None
-    wrong &= out.cause != NOT_TRACED
-    out.cause[wrong], out.figure[wrong], out.allowed[wrong] = UNEXPLAINED, np.nan, np.nan
+    yield from scaled(behind.check(pixels, find_causes), 1.0, 0.0)
     yield from unmodelled.name_drawn(pixels)
     if at_most is None:
         yield from color.name_shades(pixels)

@@ -23,8 +23,6 @@ from .ties import seen_and_ties
 Met = list[exact.Hit | None]
 # Whether the first of two candidates is nearer or farther than the second: codes of `order.py`.
 Compare = Callable[[Index, Index], NDArray[np.int8]]
-# Finds the nearest candidate of each ray by comparing; see `one_by_one`.
-Nearest = Callable[[Compare, Index], tuple[Index, Bools, Bools]]
 
 
 @dataclass(eq=False)
@@ -44,7 +42,7 @@ class Decisions:
         surfaces, surface = self.surfaces.only(surface)
         yield from Prepared(self.around, surfaces).enter(self.hits, ray, surface, self.rays.take)
 
-    def by_order(self, found: Candidates, nearest: Nearest) -> Candidates:
+    def by_order(self, found: Candidates) -> Candidates:
         """Decide the rays that certainly meet all their candidates, if the order of these is known.
 
         All candidates of a ray come together. Returns those of the other rays.
@@ -59,7 +57,7 @@ class Decisions:
         # Sorted by name: of several in one plane, the first, which stays, has the lowest name.
         found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], found.ray)))
         of_ray = np.cumsum(np.diff(found.ray, prepend=-1) != 0) - 1
-        first, decided, coplanar = nearest(self._compare(found), of_ray)
+        first, decided, coplanar = tournament(self._compare(found), of_ray)
         is_decided = decided[of_ray]
         losers = is_decided.copy()
         losers[first] = False
@@ -124,8 +122,12 @@ class Decisions:
         return met, firsts
 
 
-def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
-    """Find the nearest of each ray's candidates by comparing them one after the other.
+def tournament(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
+    """Find the nearest of each ray's candidates: they are compared two by two, in rounds.
+
+    In every round, each second candidate that is left of a ray is compared with the one before it,
+    and the nearer stays; of two in one plane, the one before. So there are about as many rounds as
+    the logarithm of a ray's candidates.
 
     Parameters
     ----------
@@ -143,19 +145,22 @@ def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
     tied : (c,) bool
         Which candidates lie in one plane with the nearest of their ray, itself included.
     """
-    count = np.bincount(of_ray)
-    begin = np.cumsum(count) - count
-    first = begin.copy()
-    decided = np.ones(len(count), bool)
-    coplanar_with = np.arange(len(of_ray))
-    for number in range(1, int(np.max(count, initial=0))):
-        ray = np.flatnonzero(count > number)
-        other = begin[ray] + number
-        result = compare(first[ray], other)
-        decided[ray[result == order.UNDECIDED]] = False
-        coplanar = result == order.COPLANAR
-        coplanar_with[other[coplanar]] = first[ray[coplanar]]
-        nearer = result == order.FARTHER  # the nearest so far is farther than this one
-        first[ray[nearer]] = other[nearer]
-    # Who was coplanar with a nearest that was beaten since is not so with the one that is left.
-    return first, decided, coplanar_with == first[of_ray]
+    rays = int(of_ray[-1]) + 1 if len(of_ray) else 0
+    decided = np.ones(rays, bool)
+    tied = np.ones(len(of_ray), bool)
+    left, rounds = np.arange(len(of_ray)), []
+    while len(left) > rays:
+        ray = of_ray[left]
+        begins = np.flatnonzero(np.diff(ray, prepend=-1))
+        second = np.flatnonzero((np.arange(len(left)) - begins[ray]) % 2)
+        one, other = left[second - 1], left[second]
+        result = compare(one, other)
+        decided[ray[second[result == order.UNDECIDED]]] = False
+        beaten = result == order.FARTHER
+        stays = np.where(beaten, other, one)
+        rounds.append((np.where(beaten, one, other), stays, result == order.COPLANAR))
+        left[second - 1] = stays
+        left = np.delete(left, second)
+    for loser, winner, coplanar in reversed(rounds):
+        tied[loser] = coplanar & tied[winner]
+    return left, decided, tied

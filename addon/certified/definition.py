@@ -46,7 +46,7 @@ from ..scene import Scene
 from ..tracer.camera import Rays, camera_rays, film_positions
 from ..tracer.hits import NOTHING, NOWHERE
 from ..tracer.ties import Name
-from ..tracer.world import WorldTriangles, batches, world_triangles
+from ..tracer.world import finite_triangles
 from .exact import IntegerBatch
 from .ties import seen_and_ties
 
@@ -73,7 +73,10 @@ def definition(scene: Scene, pixels: Index | None = None) -> Iterator[Seen]:
 
 def seen_by(scene: Scene, rays: Rays, clip: tuple[float, float]) -> Iterator[Seen]:
     """Yield what any rays see in a clip range."""
-    triangles, names = _surfaces(scene)
+    triangles = finite_triangles(scene)
+    first_plane = len(scene.instances)
+    names = [(first_plane + number, NOTHING) for number in range(len(scene.planes))]
+    names += zip(triangles.instance.tolist(), triangles.triangle.tolist(), strict=True)
     planes = [(plane.point, plane.normal) for plane in scene.planes]
     integers = IntegerBatch(rays, triangles.corners, planes, *clip)  # planes first, as in `names`
     for ray in range(rays.count):
@@ -89,14 +92,3 @@ def seen_by(scene: Scene, rays: Rays, clip: tuple[float, float]) -> Iterator[See
             yield Seen(name, integers.t(hit), ties, crossings)
         else:
             yield Seen(NOWHERE, np.inf, ties, crossings)
-
-
-def _surfaces(scene: Scene) -> tuple[WorldTriangles, list[Name]]:
-    """Return the finite triangles in world space; and the names of the planes, then of these."""
-    every = [world_triangles(scene, batch, np.dtype(float)) for batch in batches(scene)]
-    triangles = WorldTriangles.joined([WorldTriangles.none(), *every])
-    triangles = triangles.take(np.flatnonzero(triangles.finite))
-    first_plane = len(scene.instances)
-    names = [(first_plane + number, NOTHING) for number in range(len(scene.planes))]
-    names += zip(triangles.instance.tolist(), triangles.triangle.tolist(), strict=True)
-    return triangles, names

@@ -28,7 +28,7 @@ from ..tracer.ties import Ties
 from ..tracer.vector import occurring
 from ..tracer.world import Pairs, WorldTriangles
 from .bounds import Fractions, FromPoint, Parallel, plane_fractions
-from .decisions import Decisions, Nearest, one_by_one
+from .decisions import Decisions
 from .reasons import reasons
 from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
 
@@ -104,22 +104,25 @@ class Ladder:
         self._triangles.append(pairs.triangles.take(used))
         self._surfaces += len(used)
 
-    def hits(self, statistics: Statistics, nearest: Nearest | None = None) -> Work[Hits]:
+    def hits(self, statistics: Statistics) -> Work[Hits]:
         """Decide which surface is nearest to each ray, in small steps.
 
-        Counts in the statistics why bounds did not decide. `nearest` finds the nearest of
-        candidates by their order; `one_by_one` is the default.
+        Counts in the statistics why bounds did not decide.
         """
         hits = Hits.none(self._rays.count, Certainty.BOUND)
-        found, clear, surfaces = self.left()
+        found = Candidates.joined(self._found)
+        found = found.take(np.flatnonzero(found.low <= self._farthest[found.ray]))
         if not len(found):
             return hits
+        alone = np.bincount(found.ray, minlength=self._rays.count)[found.ray] == 1
+        clear = alone & (found.doubt == SURE)
+        surfaces = replace(self._planes, triangles=WorldTriangles.joined(self._triangles))
         decisions = Decisions(hits, self._rays, surfaces, self._clip, self._around)
         some = found.take(np.flatnonzero(clear))
         yield from decisions.by_bound(some.ray, some.surface)
         for part in found.take(np.flatnonzero(~clear)).by_ray(BY_ORDER):
             with np.errstate(all="ignore"):
-                rest = decisions.by_order(part, nearest or one_by_one)
+                rest = decisions.by_order(part)
             yield None
             for some in rest.by_ray(BY_INTEGERS):
                 with np.errstate(all="ignore"):
@@ -130,14 +133,6 @@ class Ladder:
         hits.ties = Ties.joined(decisions.ties)
         statistics.reasons += decisions.reasons
         return hits
-
-    def left(self) -> tuple[Candidates, Bools, Surfaces]:
-        """Return the remaining candidates, which of them the bound decides, and the surfaces."""
-        found = Candidates.joined(self._found)
-        found = found.take(np.flatnonzero(found.low <= self._farthest[found.ray]))
-        alone = np.bincount(found.ray, minlength=self._rays.count)[found.ray] == 1
-        surfaces = replace(self._planes, triangles=WorldTriangles.joined(self._triangles))
-        return found, alone & (found.doubt == SURE), surfaces
 
     def _test_plane(self, number: int, point: Floats, normal: Floats) -> None:
         every = np.arange(self._rays.count)

@@ -22,7 +22,7 @@ import numpy as np
 
 from ..arrays import Bools, Bytes, Floats, Index, parts
 from ..tracer.camera import Rays
-from ..tracer.world import Pairs, WorldTriangles, batches, world_triangles
+from ..tracer.world import Pairs, WorldTriangles, finite_triangles
 from .bounds import U
 from .tree import TINY, TOGETHER, WIDE, BoxRays, Tree, around, neighbours
 
@@ -46,9 +46,7 @@ class TriangleTree:
     @classmethod
     def of(cls, scene: Scene) -> TriangleTree:
         """Build the tree of a scene."""
-        every = [world_triangles(scene, batch, np.dtype(float)) for batch in batches(scene)]
-        found = WorldTriangles.joined([WorldTriangles.none(), *every])
-        return cls.made_of(found.take(np.flatnonzero(found.finite)))
+        return cls.made_of(finite_triangles(scene))
 
     @classmethod
     def made_of(cls, found: WorldTriangles) -> TriangleTree:

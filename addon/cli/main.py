@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from .. import __version__
 from ..tracer import signals
+from ..wording import capital
 from . import running
 from .commands import COMMANDS
 from .parser import EXIT_CODES_HELP, Parser
@@ -56,7 +57,7 @@ def parser(argv: Sequence[str]) -> Parser:
     asked = next((word for word in argv if not word.startswith("-")), None)
     for name, command in COMMANDS.items():
         text = command.help
-        own = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+        own = commands.add_parser(name, help=text, description=f"{capital(text)}.")
         if name == asked:
             _add_options(own, name)
     return out

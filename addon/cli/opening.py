@@ -10,14 +10,13 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..camera_files.files import of_frames
 from ..comparison.animation import frames_named
 from ..files.file_kinds import check_is_file
 from ..framing import Choice
-from ..manifest import Manifest
-from ..opened import mesh_formats, open_scene
+from ..opened import Opened, mesh_formats, open_scene
 from ..scene import Scene, SceneError
 from ..tracer.settings import Settings
 from ..tracer.signals import held
@@ -33,14 +32,6 @@ if mesh_formats():
     SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(mesh_formats())})"
 
 
-class OpenedFile(NamedTuple):
-    """An opened file: its scene, and the account of what was exported."""
-
-    scene: Scene
-    manifest: Manifest
-    settings: Settings  # that it stores
-
-
 def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     """Return the scene of a .blend, a .npz or a mesh, with the settings that it stores.
 
@@ -54,7 +45,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     return opened.scene, opened.settings
 
 
-def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> OpenedFile:
+def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> Opened:
     """Open a .blend, a .npz or a mesh. Meshes are framed where no camera is chosen.
 
     Of a .blend, what is outside the camera's view is left out, unless `whole`.
@@ -69,16 +60,15 @@ def open_file(path: Path, choice: Choice = _AS_SAVED, whole: bool = False) -> Op
             from ..blender.jobs.open_file import export_open_file
 
             with evaluating(blender.context.view_layer, path.name):
-                scene, manifest, settings = export_open_file(blender.context, whole=whole)
-        return OpenedFile(scene, manifest, settings)
+                return Opened(*export_open_file(blender.context, whole=whole))
     check_kind(path)
     with running.meanwhile(f"reading {path.name}"):
-        return OpenedFile(*open_scene(path, choice), Settings())
+        return open_scene(path, choice)
 
 
 def open_frames(
     path: Path, choice: Choice, named: str | None, whole: bool = False
-) -> Iterator[tuple[int, OpenedFile]]:
+) -> Iterator[tuple[int, Opened]]:
     """Yield the frames that are named of a .blend, opened once, as :func:`open_file`.
 
     If none are, that is one, the saved one, with the number 0.
@@ -98,7 +88,7 @@ def open_frames(
         bake_bodies(user, frames[-1])
         for frame in stepped(user, [*frames]):
             with seen_by(user, views.get(frame)):
-                opened = OpenedFile(*export_open_file(blender.context, whole=whole))
+                opened = Opened(*export_open_file(blender.context, whole=whole))
             yield frame, opened
 
 

@@ -20,7 +20,7 @@ from ..study import extremes, tradeoff
 from ..study.trade import Trade
 from ..tracer.frame import Frame
 from ..tracer.progress import Progress, Work, scaled
-from ..tracer.settings import Precision, Settings
+from ..tracer.settings import Settings
 from .comparison import Comparison
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
@@ -90,8 +90,7 @@ def _literal(comparison: Comparison, left_out: list[str]) -> Work[Colors | None]
         )
         return None
     frame = Frame.empty(comparison.scene)
-    settings = Settings(Method.TEXTBOOK_LITERAL, Precision.FLOAT64)
-    yield from steps(comparison.scene, settings, frame)
+    yield from steps(comparison.scene, Settings(Method.TEXTBOOK_LITERAL), frame)
     return frame.color
 
 

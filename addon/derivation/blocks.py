@@ -93,7 +93,6 @@ def markdown(block: Block) -> str:
             ]
             rule = " | ".join("--:" if name == "off" else "---" for name in block.head)
             return "\n".join([head, f"| {rule} |", *rows])
-    raise TypeError(type(block).__name__)
 
 
 def _cell(cell: Cell) -> str:

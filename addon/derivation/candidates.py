@@ -7,16 +7,15 @@ come first, so that a forest takes no longer than a tree.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Places
+from ..arrays import Floats, Places
 from ..methods import Method
-from ..scene import Camera, Instance, Mesh, Region, Scene
-from ..tracer.candidates import candidates
+from ..scene import Camera, Region, Scene
+from ..tracer.candidates import candidates, pixel_bounds
 from ..tracer.hits import NOTHING
 from ..tracer.nearest import plan, within_clip
 from ..tracer.progress import result_of
@@ -24,29 +23,13 @@ from ..tracer.settings import UNPROVEN_SETTINGS, Settings
 from ..tracer.ties import Name
 from ..tracer.triangle import textbook
 from ..tracer.vector import transform_points
-from ..tracer.world import Pairs, WorldTriangles, refused
+from ..tracer.world import WorldTriangles, refused
 from .pixel import Candidate, Pixel, answer, check_pixel
 
 LIMIT = 8  # candidates that one still reads
 
 _PLAIN = Settings(Method.TEXTBOOK)
 _FARTHEST = 1e300  # metres: no clip range
-_CUBE = np.array(  # a box's twelve triangles, by corners numbered 4 x + 2 y + z
-    [
-        (0, 2, 1),
-        (1, 2, 3),
-        (4, 5, 6),
-        (5, 7, 6),
-        (0, 1, 4),
-        (1, 5, 4),
-        (2, 6, 3),
-        (3, 6, 7),
-        (0, 4, 2),
-        (2, 4, 6),
-        (1, 3, 5),
-        (3, 7, 5),
-    ]
-)
 
 
 def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Pixel:
@@ -106,37 +89,27 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
 def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
     """Return the triangles with a box on the film that holds the tile's one pixel, each once."""
     found: dict[Name, NDArray[np.float64]] = {}
-    boxes, boxed, others = _boxes(scene)
+    boxes = _boxes(scene)
     for camera in _both_ways(replace(scene.camera, region=tile)):
         # First the instances with a bounding box that the ray may meet.
-        met = (boxed[p.triangle // len(_CUBE)] for p in _pairs(replace(boxes, camera=camera), 0.5))
-        near = np.unique(np.concatenate([others, *met]))
+        x0, x1, y0, y1 = pixel_bounds(camera, boxes, reach=0.5)
+        near = np.flatnonzero((x0 < x1) & (y0 < y1))
         some = replace(scene, camera=camera, instances=tuple(scene.instances[k] for k in near))
-        for pairs in _pairs(some, 0.0):
-            names = zip(near[pairs.instance].tolist(), pairs.triangle.tolist(), strict=True)
-            found |= zip(names, np.moveaxis(pairs.corners, 2, 0), strict=True)
-    if not found:
-        return WorldTriangles.none()
-    instance, triangle = np.array(list(found), np.int32).T
-    return WorldTriangles(np.stack(list(found.values()), axis=2), instance, triangle)
+        for _, pairs in candidates(result_of(plan(some, _PLAIN, 0.0)), tile):
+            if pairs is not None:
+                names = zip(near[pairs.instance].tolist(), pairs.triangle.tolist(), strict=True)
+                found |= zip(names, np.moveaxis(pairs.corners, 2, 0), strict=True)
+    corners = np.array(list(found.values())).reshape(-1, 3, 3)
+    named = np.array(list(found), np.int32).reshape(-1, 2)
+    return WorldTriangles(corners.transpose(1, 2, 0), *named.T)
 
 
-def _boxes(scene: Scene) -> tuple[Scene, Places, Places]:
-    """Return a scene of all instances' bounding boxes as one mesh, and the instance of each.
-
-    At last the instances with boxes that are not finite in the world, as they overflow.
-    """
-    local = np.array([np.meshgrid(*mesh.bounds.T, indexing="ij") for mesh in scene.meshes])
-    local = local.reshape(-1, 3, 8)[scene.instance_meshes].swapaxes(0, 1)
-    with np.errstate(over="ignore", invalid="ignore"):
-        world = transform_points(scene.instance_matrices[..., None], local)
-    finite = np.isfinite(world).all(axis=(0, 2))
-    corners = world[:, finite].reshape(3, -1).T
-    cubes = 8 * np.arange(len(corners) // 8)[:, None, None] + _CUBE
-    mesh = Mesh(corners, cubes.reshape(-1, 3))
-    whole = (Instance(0, 0, np.eye(4)),) if len(corners) else ()
-    made = replace(scene, meshes=(mesh,), instances=whole, planes=())
-    return made, np.flatnonzero(finite), np.flatnonzero(~finite)
+def _boxes(scene: Scene) -> Floats:
+    """Return the corners of all instances' bounding boxes, (8, 3, instances), world space."""
+    local = np.array([np.meshgrid(*mesh.bounds.T) for mesh in scene.meshes]).reshape(-1, 3, 8)
+    corners = local[scene.instance_meshes].transpose(2, 1, 0)
+    with np.errstate(over="ignore", invalid="ignore"):  # what overflows may be anywhere
+        return np.stack([transform_points(scene.instance_matrices, p) for p in corners])
 
 
 def _both_ways(camera: Camera) -> list[Camera]:
@@ -148,13 +121,6 @@ def _both_ways(camera: Camera) -> list[Camera]:
     turned = camera.world_from_camera.copy()
     turned[:3, :3] *= -1  # right, up and forward: −d = u (−right) + v (−up) + (−forward)
     return [ahead, replace(ahead, world_from_camera=turned)]
-
-
-def _pairs(scene: Scene, reach: float) -> Iterator[Pairs]:
-    """Yield the pairs of a camera's one pixel with what may cover it."""
-    for _, pairs in candidates(result_of(plan(scene, _PLAIN, reach)), scene.camera.region):
-        if pairs is not None and len(pairs.row):
-            yield pairs
 
 
 def _order(pixel: Pixel, triangles: WorldTriangles) -> Places:

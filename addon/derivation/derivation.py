@@ -18,12 +18,11 @@ from typing import Any
 import numpy as np
 
 from ..scene import Scene
-from ..tracer.hits import NOWHERE
 from ..tracer.ties import Name
 from . import textbook
 from .candidates import LIMIT, gather_pixel
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
-from .pixel import Answer, Candidate, Pixel, certified_answer, plain_answers
+from .pixel import Answer, Candidate, Pixel, answer, plain_answers
 from .textbook import Arithmetic, Judgement, Labelled, Number
 
 Columns = dict[Arithmetic, Labelled]
@@ -84,21 +83,17 @@ class Derivation:
     @property
     def seen(self) -> Candidate | None:
         """The candidate that is certainly seen; None for the background."""
-        return self.named(self.certified.seen)
+        return self.seen_test.candidate if self.seen_test else None
 
     @property
     def seen_test(self) -> Test | None:
         """The ray against what is certainly seen."""
-        return next((t for t in self.tests if t.candidate is self.seen), None)
-
-    def named(self, name: Name) -> Candidate | None:
-        """Return the candidate of a name; None for NOWHERE."""
-        return next((t.candidate for t in self.tests if t.candidate.name == name), None)
+        return next((t for t in self.tests if t.candidate.name == self.certified.seen), None)
 
     def title_of(self, name: Name) -> str:
-        """Return the words for the candidate of a name."""
-        found = self.named(name)
-        return found.title if found else "nothing"
+        """Return the words for the candidate of a name, or for NOWHERE."""
+        titles = (t.candidate.title for t in self.tests if t.candidate.name == name)
+        return next(titles, "nothing")
 
 
 def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Derivation:
@@ -115,7 +110,7 @@ def derive_pixel(pixel: Pixel) -> Derivation:
         name: Arithmetic.EXACT.vector(ray[Arithmetic.FLOAT64][name]) for name in ("o", "d")
     }
     tests = tuple(_test(pixel, ray, candidate) for candidate in pixel.candidates)
-    certified = certified_answer(pixel)
+    certified = answer(pixel, pixel.world_triangles())
     seen = next((t for t in tests if t.candidate.name == certified.seen), None)
     shading, color = _color(pixel, seen, certified)
     return Derivation(
@@ -170,7 +165,7 @@ def _color(
     pixel: Pixel, seen: Test | None, certified: Answer
 ) -> tuple[tuple[Quantity, ...], tuple[float, ...]]:
     """Return the steps and the value of the colour of what is certainly seen."""
-    if seen is None or certified.seen == NOWHERE:
+    if seen is None:
         return (), tuple(map(float, pixel.background))
     colors = seen.candidate.colors
     if len(colors) == 1:

@@ -8,10 +8,8 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-import numpy as np
-
 from ..certainty import Certainty
-from ..files.images import to_display
+from ..files.images import hex_color
 from . import blocks
 from .blocks import Block, Heading, Paragraph, Table, numbers
 from .derivation import Derivation, Test
@@ -20,6 +18,7 @@ from .formulas import ERRATA
 from .textbook import FLOATS, Arithmetic, Judgement
 
 _TEXTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+_NOTHING = "nothing", "–"  # is seen, and its t
 CERTAINTY_SENTENCES = {c: _TEXTS["certainty"][c.name.lower()] for c in Certainty}
 
 
@@ -56,21 +55,18 @@ def document_markdown(derivation: Derivation) -> str:
 def _opening(derivation: Derivation) -> list[Block]:
     pixel, camera = derivation.pixel, derivation.pixel.camera
     of = f" of {pixel.source}" if pixel.source else ""
-    start, end = (digits_text(float(t)) for t in (camera.clip_start, camera.clip_end))
+    start, end = (digits_text(t) for t in (camera.clip_start, camera.clip_end))
     shown = [_text("camera", camera=camera, start=start, end=end)]
     if (camera.region.width, camera.region.height) != (camera.width, camera.height):
         shown.append(_text("border", pixel=pixel))
-    other_t = []  # of what is seen: the one that the tables come to
-    if test := derivation.seen_test:
-        t = digits_text(test.number("t", Arithmetic.FLOAT64))
-        other_t.append(_said("other_t", "note", t=t))
-    return [
+    out: list[Block] = [
         Heading(1, f"The ray through pixel ({pixel.x}, {pixel.y}){of}"),
         Paragraph(answer_sentence(derivation), "answer"),
-        *other_t,
-        Paragraph(" ".join(shown)),
-        _said("reading", "note"),
     ]
+    if test := derivation.seen_test:  # its other t: the one that the tables come to
+        t = digits_text(test.number("t", Arithmetic.FLOAT64))
+        out.append(_said("other_t", "note", t=t))
+    return [*out, Paragraph(" ".join(shown)), _said("reading", "note")]
 
 
 def answer_sentence(derivation: Derivation) -> str:
@@ -147,11 +143,11 @@ def _judgement(kind: Arithmetic, said: Judgement) -> tuple[str, ...]:
 
 
 def _nearest(derivation: Derivation) -> list[Block]:
-    rows = [(kind.value, "nothing", "–") for kind in Arithmetic]
-    for at, (kind, k) in enumerate(derivation.nearest.items()):
-        if k is not None:
-            test = derivation.tests[k]
-            rows[at] = kind.value, test.candidate.title, digits_text(test.number("t", kind))
+    rows = []
+    for kind, k in derivation.nearest.items():
+        test = None if k is None else derivation.tests[k]
+        seen = (test.candidate.title, digits_text(test.number("t", kind))) if test else _NOTHING
+        rows.append((kind.value, *seen))
     methods = tuple(
         (
             a.method.value,
@@ -183,8 +179,7 @@ def _color(derivation: Derivation) -> list[Block]:
         why = "color_of_plane" if seen.is_plane else "color_of_slot"
     steps: list[Block] = [numbers(derivation.shading)] if derivation.shading else []
     rgba = ", ".join(digits_text(v) for v in derivation.color)
-    shown = to_display(np.array([[derivation.color]]))[0, 0, :3]
-    srgb = "#" + "".join(f"{v:02x}" for v in shown)
+    srgb = hex_color(derivation.color)
     value = Paragraph(_text("rgba", rgba=rgba, srgb=srgb), "", srgb)
     return [Heading(2, "4. Its colour", "4"), _said(why, seen=seen), *steps, value]
 

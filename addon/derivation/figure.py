@@ -7,9 +7,11 @@ not the numbers.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..arrays import Floats
 from ..tracer.camera import pixel_size
@@ -61,7 +63,8 @@ def shapes(derivation: Derivation) -> list[Shape]:
     radius = min(_THIN * size, largest / 2)
     out = [_cone(pixel.origin, pixel.direction, end, radius), *_film(pixel)]
     for number, test in enumerate(derivation.tests, 1):
-        name, candidate, color = f"2.{number}", test.candidate, _color(test)
+        name, candidate = f"2.{number}", test.candidate
+        color = ACCEPTED if test.judgements[Arithmetic.EXACT].accepted else REJECTED
         if not candidate.is_plane:
             title = f"{name} {candidate.object}"
             out.append(Shape(title, candidate.points, _OUTLINE, [], color, True))
@@ -71,10 +74,11 @@ def shapes(derivation: Derivation) -> list[Shape]:
         x = pixel.origin + t * pixel.direction
         pane, title = _pane(test, x, 0.25 * size), f"{name} plane of {candidate.object}"
         if candidate is seen:
+            lift = -_LIFT * t * pixel.direction
             out.append(_dot("Hit", x, min(_DOT * abs(t), largest), HIT))
-            out += _weights(derivation, test, t)
-            lifted = pane - _LIFT / 2 * t * pixel.direction
-            out.append(Shape(title, lifted, [], [(0, 1, 2, 3)], GLASS))
+            if not candidate.is_plane:
+                out += _weights(candidate.points + lift, x + lift, derivation.certified.s)
+            out.append(Shape(title, pane + lift / 2, [], [(0, 1, 2, 3)], GLASS))
         else:
             out.append(_dot(f"{name} x", x, _SMALL_DOT * abs(t), color))
             out.append(Shape(title, pane, _FRAME, [], color))
@@ -91,18 +95,20 @@ def _film(pixel: Pixel) -> list[Shape]:
         return []
     depth = 0.0 if camera.projection.shares_direction else 1.0
     middle = camera.origin + depth * camera.forward
-    w, (width, height) = camera.window, pixel_size(camera)
-    x, y = w.left + pixel.column * width, w.bottom + pixel.row * height
-    corners = {
-        "Film": ((w.left, w.bottom), (w.right, w.top)),
-        "Pixel": ((x, y), (x + width, y + height)),
-    }
-    out = []
-    for name, ((left, bottom), (right, top)) in corners.items():
-        at = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
-        points = middle + at @ np.stack((camera.right, camera.up))
-        out.append(Shape(name, points, _FRAME, [], FILM, name == "Pixel"))
-    return out
+    axes = np.stack((camera.right, camera.up))
+    w, size = camera.window, np.array(pixel_size(camera))
+    start = np.array((w.left, w.bottom))
+    corner = start + (pixel.column, pixel.row) * size
+    film = _rectangle(middle, axes, start, (w.right, w.top))
+    own = _rectangle(middle, axes, corner, corner + size)
+    return [Shape("Film", film, _FRAME, [], FILM), Shape("Pixel", own, _FRAME, [], FILM, True)]
+
+
+def _rectangle(origin: Floats, axes: Floats, low: ArrayLike, high: ArrayLike) -> Floats:
+    """Return the corners (4, 3) of a rectangle along two axes (2, 3), between (2,) low and high."""
+    (left, bottom), (right, top) = np.asarray(low), np.asarray(high)
+    corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
+    return origin + np.array(corners) @ axes
 
 
 def _end(derivation: Derivation) -> float:
@@ -125,53 +131,40 @@ def _normal(test: Test) -> Floats:
     return np.array(n.values[Arithmetic.FLOAT64], np.float64)
 
 
-def _color(test: Test) -> Rgba:
-    return ACCEPTED if test.judgements[Arithmetic.EXACT].accepted else REJECTED
-
-
-def _weights(derivation: Derivation, test: Test, t: float) -> list[Shape]:
+def _weights(corners: Floats, x: Floats, s: Floats) -> list[Shape]:
     """Return the triangles that x makes with each edge: sᵢ is the share of the one beyond pᵢ."""
-    if test.candidate.is_plane:
-        return []
-    direction = derivation.pixel.direction
-    corners = test.candidate.points - _LIFT * t * direction
-    x = derivation.pixel.origin + (1 - _LIFT) * t * direction
     out = []
-    for k, (color, s) in enumerate(zip(WEIGHTS, derivation.certified.s, strict=True)):
-        points = np.stack((x, corners[(k + 1) % 3], corners[(k + 2) % 3]))
-        out.append(Shape(f"s{k + 1} = {s:.6g}", points, [], [(0, 1, 2)], color))
+    for k, color in enumerate(WEIGHTS):
+        points = np.stack((x, corners[k - 2], corners[k - 1]))
+        out.append(Shape(f"s{k + 1} = {s[k]:.6g}", points, [], [(0, 1, 2)], color))
     return out
 
 
 def _pane(test: Test, x: Floats, least: float) -> Floats:
     """Return the corners (4, 3) of a rectangle in a candidate's plane that holds it and x."""
-    points = x[None]
-    if not test.candidate.is_plane:
-        points, least = np.concatenate((test.candidate.points, points)), 0.0
+    points = np.array([x] if test.candidate.is_plane else [*test.candidate.points, x])
     center = points.mean(axis=0)
-    axes = np.stack(_across(_normal(test)))
+    axes = _across(_normal(test))
     places = (points - center) @ axes.T
     low, high = places.min(axis=0), places.max(axis=0)
-    pad = max(_MARGIN * np.max(high - low), least)
-    (left, bottom), (right, top) = low - pad, high + pad
-    rectangle = [(left, bottom), (right, bottom), (right, top), (left, top)]
-    return np.asarray(center + np.array(rectangle) @ axes)
+    pad = _MARGIN * np.max(high - low) or least
+    return _rectangle(center, axes, low - pad, high + pad)
 
 
-def _across(direction: Floats) -> tuple[Floats, Floats]:
-    """Return two unit vectors at right angles to a direction and to one another."""
+def _across(direction: Floats) -> Floats:
+    """Return two unit vectors (2, 3) at right angles to a direction and to one another."""
     direction = direction / np.max(np.abs(direction))
     least = np.eye(3)[np.argmin(np.abs(direction))]
     u = np.cross(direction, least)
-    v = np.cross(direction, u)
-    return u / np.linalg.norm(u), v / np.linalg.norm(v)
+    axes = np.stack((u, np.cross(direction, u)))
+    return axes / np.linalg.norm(axes, axis=1, keepdims=True)
 
 
 def _cone(start: Floats, along: Floats, length: float, radius: float) -> Shape:
-    u, v = _across(along)  # not end - start: at t = 0, or far away, that is zero
+    axes = _across(along)  # not end - start: at t = 0, or far away, that is zero
     end = start + length * along
     angles = 2 * np.pi * np.arange(_SIDES) / _SIDES
-    ring = [end + radius * (np.cos(a) * u + np.sin(a) * v) for a in angles]
+    ring = end + radius * np.stack((np.cos(angles), np.sin(angles)), axis=1) @ axes
     middle = _SIDES + 1  # a line by itself is drawn however thin the cone is
     faces: list[tuple[int, ...]] = [(0, 1 + k, 1 + (k + 1) % _SIDES) for k in range(_SIDES)]
     faces.append(tuple(range(_SIDES, 0, -1)))
@@ -181,10 +174,4 @@ def _cone(start: Floats, along: Floats, length: float, radius: float) -> Shape:
 def _dot(name: str, center: Floats, radius: float, color: Rgba) -> Shape:
     """Return an octahedron."""
     points = center + radius * np.concatenate((np.eye(3), -np.eye(3)))
-    faces = [
-        (i, j, k) if (i < 3) ^ (j < 3) ^ (k < 3) else (i, k, j)
-        for i in (0, 3)
-        for j in (1, 4)
-        for k in (2, 5)
-    ]
-    return Shape(name, points, [], faces, color, True)
+    return Shape(name, points, [], [*product((0, 3), (1, 4), (2, 5))], color, True)

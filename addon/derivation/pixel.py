@@ -94,21 +94,12 @@ class Pixel:
         film = np.array([self.column + 0.5]), np.array([self.row + 0.5])
         return camera_rays(self.camera, *film, precision.dtype)
 
-    @property
-    def planes(self) -> list[Candidate]:
-        """Those of the candidates that are infinite planes."""
-        return [c for c in self.candidates if c.is_plane]
-
     def world_triangles(self) -> WorldTriangles:
         """Return the candidates that are triangles, as the tracer takes them."""
         found = [c for c in self.candidates if not c.is_plane]
-        if not found:
-            return WorldTriangles.none()
-        return WorldTriangles(
-            np.stack([c.points for c in found], axis=2),
-            np.array([c.instance for c in found], np.int32),
-            np.array([c.triangle for c in found], np.int32),
-        )
+        corners = np.array([c.points for c in found]).reshape(-1, 3, 3)
+        names = np.array([c.name for c in found], np.int32).reshape(-1, 2)
+        return WorldTriangles(corners.transpose(1, 2, 0), *names.T)
 
     @cached_property
     def origin(self) -> Floats:
@@ -157,31 +148,27 @@ def plain_answers(pixel: Pixel) -> list[Answer]:
     return [answer(pixel, triangles, settings) for settings in UNPROVEN_SETTINGS]
 
 
-def certified_answer(pixel: Pixel) -> Answer:
-    """Return the answer that is proven; NOT_CERTIFIED where this process can prove nothing."""
-    return answer(pixel, pixel.world_triangles())
-
-
 def answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings | None = None) -> Answer:
     """Return the nearest hit of these triangles and the pixel's planes, each tested with the ray.
 
-    By default what is proven, as far as this process can prove anything.
+    By default what is proven; NOT_CERTIFIED where this process can prove nothing.
     """
     # Sorted, as of equals the tracer takes the first.
     order = np.lexsort((triangles.triangle, triangles.instance))
     corners = triangles.corners[..., order].transpose(2, 0, 1).reshape(-1, 3)
     numbers = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
+    planes = [c for c in pixel.candidates if c.is_plane]
     scene = Scene(
         pixel.camera,
         (Mesh(corners, numbers),),
         (Instance(0, 0, np.eye(4)),),
-        tuple(Plane(0, *c.points) for c in pixel.planes),
+        tuple(Plane(0, *c.points) for c in planes),
         objects=("",),
     )
     names = {NOWHERE: NOWHERE}
     for number, k in enumerate(order):
         names[0, number] = int(triangles.instance[k]), int(triangles.triangle[k])
-    names |= {(k, NOTHING): c.name for k, c in enumerate(pixel.planes, 1)}
+    names |= {(k, NOTHING): c.name for k, c in enumerate(planes, 1)}
     precision = settings.precision if settings else Precision.FLOAT64
     hits = trace(scene, settings or Settings(), rays=pixel.rays(precision))
     return Answer(

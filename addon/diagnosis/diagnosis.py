@@ -16,7 +16,7 @@ from ..causes.case import Case
 from ..causes.cause import Causes
 from ..tracer.frame import Frame
 from ..tracer.progress import Work
-from ..wording import count_of
+from ..wording import count_of, listed
 from .evidence import LEAST_SETTLED, Evidence
 from .faults import FAULTS
 from .faults.fault import AnyFault, Guess
@@ -140,14 +140,9 @@ class Diagnosis:
             out.append(f"           {self.left:,} px are left, in {places}:")
             out += [f"             {_framed(region)}" for region in self.regions[:FRAMED]]
         if self.untried and not (self.told and self.told[-1].is_all):
-            out.append(f"           (a limit of work ended the search for: {self._untried})")
+            untried = listed([*map(spoken, self.untried)], NAMED)
+            out.append(f"           (a limit of work ended the search for: {untried})")
         return out
-
-    @property
-    def _untried(self) -> str:
-        more = len(self.untried) - NAMED
-        named = ", ".join(map(spoken, self.untried[:NAMED]))
-        return f"{named} and {more} more" if more > 0 else named
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""

@@ -79,6 +79,13 @@ class Evidence:
         found: T = self.known[key]
         return found
 
+    def done_once(self, key: str, work: Work[T]) -> Work[T]:
+        """Return the result of work that several faults need, done once."""
+        if key not in self.known:
+            self.known[key] = yield from work
+        found: T = self.known[key]
+        return found
+
     @cached_property
     def unexplained(self) -> Bools:
         """The pixels (h, w) that are unexplained, or passed over as there were too many."""
@@ -166,16 +173,11 @@ class Evidence:
         r = case.scene.camera.region
         if (r.height, r.width) != self.unexplained.shape:
             return Score(0, 0)
-        own = self._own_hits if case.scene is self.case.scene else []
-        if not own:
-            own.append((yield from self.trace(case.scene)))
-        hits = own[0]
+        tracing = self.trace(case.scene)
+        if case.scene is self.case.scene:
+            tracing = self.done_once(f"hits {self.size} {self.fine}", tracing)
+        hits = yield from tracing
         return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
-
-    @cached_property
-    def _own_hits(self) -> list[Hits]:
-        """The hits of the sampled pixels in the scene as it is, found on first use."""
-        return []
 
     def agrees(self, scene: Scene, hits: Hits) -> Bools:
         """Return which of the n sampled pixels agree with the n hits of a scene, (n,)."""

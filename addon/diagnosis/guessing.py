@@ -35,12 +35,12 @@ from .evidence import FEW, LEAST_SETTLED, Evidence, Score, least_with
 from .faults import FAULTS
 from .faults.fault import TRIED, AnyFault, Effort, Guess, SearchEndedError
 from .faults.fitting import ENCLOSED
-from .faults.given import given
 from .faults.matching import is_everywhere
 from .trial import Trial, in_full, traced_anew, trial_of
 from .variants import carried
 
 T = TypeVar("T")
+Scored = tuple[float, AnyFault, Guess]  # what a guess gains on the sample
 
 COMPLETE = 0.75  # the least recall of a guess, in the regions that it touches
 FITTED = 0.9  # that of fitted numbers: a fit of the wrong kind is nearly right in small regions
@@ -92,19 +92,16 @@ class Guessing:
         If it reaches its part of the limit, or all work does, it may return what it has, or None.
         """
         end = min(self.limit, self.steps + self.limit / PART)
-        while self.steps < end:
-            try:
-                next(work)
-            except StopIteration as stop:
-                found: T = stop.value
-                return found
-            self.steps += 1
-            yield None
-        self.untried.add(fault.name)
         try:
+            while self.steps < end:
+                next(work)
+                self.steps += 1
+                yield None
+            self.untried.add(fault.name)
             work.throw(SearchEndedError())
         except StopIteration as stop:
-            return stop.value
+            found: T = stop.value
+            return found
         except SearchEndedError:
             pass
         return None
@@ -125,8 +122,8 @@ class Guessing:
             if not (f.everywhere and evidence.of_object)
             and least_with(1 if f.refine else 0) <= most
         ]
-        pool: list[tuple[float, AnyFault, Guess]] = []
-        unknown: list[tuple[float, AnyFault, Guess]] = []
+        pool: list[Scored] = []
+        vague: list[Scored] = []
         out: list[Trial] = []
         order = Effort if is_everywhere(evidence) else IN_PLACES
         for number, effort in enumerate(order, 1):
@@ -135,37 +132,35 @@ class Guessing:
             if effort == Effort.OBJECT and any(_may_be_first(of, t) for t in of_view):
                 break
             yield Progress(None, f"{number}/{len(order)}: trying {TRIED[effort]}")
-            scored = yield from self._scored(evidence, some)
-            unknown += [one for one in scored if one[1].vague]
-            known = [one for one in scored if not one[1].vague]
-            pool += [one for one in known if one[0] < NEARLY * unexplained]
-            sure = [one for one in known if one[0] >= NEARLY * unexplained]
+            sure: list[Scored] = []
+            for one in (yield from self._scored(evidence, some)):
+                gain, fault, _ = one
+                of_gain = sure if gain >= NEARLY * unexplained else pool
+                (vague if fault.vague else of_gain).append(one)
             out += yield from self._trials_of(evidence, of, sure, MOST_SURE)
             if _is_enough(of, out):
                 break
         else:
             out += yield from self._trials_of(evidence, of, pool, MOST_UNSURE)
             if not _is_enough(of, out):
-                out += yield from self._trials_of(evidence, of, unknown, MOST_SURE)
+                out += yield from self._trials_of(evidence, of, vague, MOST_SURE)
         return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
 
-    def _scored(
-        self, evidence: Evidence, faults: Sequence[AnyFault]
-    ) -> Work[list[tuple[float, AnyFault, Guess]]]:
+    def _scored(self, evidence: Evidence, faults: Sequence[AnyFault]) -> Work[list[Scored]]:
         """Score the guesses of some faults on the sample; return those that gain enough."""
         out = []
         for fault in faults:
             found = yield from self._limited(fault.find(evidence), fault)
-            for made, guess in (*given(evidence, fault), *((fault, g) for g in found or ())):
+            for guess in found or ():
                 self.guesses += 1
-                score = (yield from self._limited(_score(evidence, made, guess), made)) or NONE
+                score = (yield from self._limited(_score(evidence, fault, guess), fault)) or NONE
                 if _may_be_finer(evidence, score):
-                    guess = yield from self._finer(evidence, made, guess)
-                    again = self._limited(_score(evidence, made, guess), made)
+                    guess = yield from self._finer(evidence, fault, guess)
+                    again = self._limited(_score(evidence, fault, guess), fault)
                     score = (yield from again) or NONE
                 likely = bool(guess.low) or score.gain >= LIKELY * score.broken
                 if likely and score.gain >= _least(evidence):
-                    out.append((score.gain, made, guess))
+                    out.append((score.gain, fault, guess))
         return out
 
     def _finer(self, evidence: Evidence, fault: AnyFault, guess: Guess) -> Work[Guess]:
@@ -179,22 +174,24 @@ class Guessing:
         self,
         evidence: Evidence,
         of: Evidence,
-        scored: list[tuple[float, AnyFault, Guess]],
+        scored: list[Scored],
         most: int,
     ) -> Work[list[Trial]]:
         """Try the guesses with the most gain, refining fitted ones."""
-        promising = PROMISING * max((gain for gain, _, _ in scored), default=0.0)
-        scored = sorted((one for one in scored if one[0] >= promising), key=lambda one: -one[0])
+        best = max((gain for gain, _, _ in scored), default=0.0)
         # Among equally good guesses try one of each fault first: a fault may have dozens.
         tried: Counter[str] = Counter()
-        ranks = [tried.update([fault.name]) or tried[fault.name] for _, fault, _ in scored]
-        best = scored[0][0] if scored else 0.0
-        cost = [len(g.low) if gain >= AS_GOOD * best else np.inf for gain, _, g in scored]
-        order = sorted(range(len(scored)), key=lambda n: (cost[n], -scored[n][0], ranks[n]))
+        ranked = []
+        for gain, fault, guess in sorted(scored, key=lambda one: -one[0]):
+            tried[fault.name] += 1
+            if gain >= PROMISING * best:
+                cost = len(guess.low) if gain >= AS_GOOD * best else np.inf
+                ranked.append((cost, -gain, tried[fault.name], fault, guess))
+        ranked.sort(key=lambda one: one[:3])
         out: list[Trial] = []
         done: dict[str, int] = {}  # faults with a guess that does it all, in so many numbers
-        for gain, fault, guess in (scored[n] for n in order[:most]):
-            worse = gain < AS_GOOD * best
+        for cost, _, _, fault, guess in ranked[:most]:
+            worse = cost == np.inf
             longer = not guess.object and len(guess.low) > min(done.values(), default=0)
             if fault.name in done or (done and (worse or longer)):
                 continue
@@ -244,11 +241,9 @@ def accounting(guessing: Guessing, evidence: Evidence) -> Work[list[list[Trial]]
     trials = yield from guessing.trials(evidence, evidence)
     if best := _best(evidence, trials):
         return [best]
-    for first in (yield from _turned(guessing, evidence)):
-        seconds = yield from guessing.trials(carried(evidence, first), evidence)
-        if best := _best(evidence, seconds):
-            return [[first], best]
-    for trial in (t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)):
+    turned = yield from _turned(guessing, evidence)
+    likely = [t for t in trials[:STARTS] if _may_be_first(evidence, t, not t.broken)]
+    for trial in (*turned, *likely):
         first = yield from in_full(trial)
         seconds = yield from guessing.trials(carried(evidence, first), evidence)
         own = first.guess.object  # two changes of one object are one that is not known
@@ -287,9 +282,8 @@ def _turned(guessing: Guessing, evidence: Evidence) -> Work[list[Trial]]:
             if other := fault.assume(case, guess):
                 traced = yield from traced_anew(other, case, frame)
                 if (yield from find_transform(traced, other.picture, ~boundary(traced))):
-                    if trial := (yield from trial_of(evidence, fault, guess, promising=True)):
-                        out.append((yield from in_full(trial)))
-    return out
+                    out.append((yield from trial_of(evidence, fault, guess, promising=True)))
+    return [trial for trial in out if trial]
 
 
 def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
@@ -309,8 +303,10 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
 def _is_enough(evidence: Evidence, trials: Sequence[Trial]) -> bool:
     """Return whether one that may be reported settles nearly all: then no more are tried."""
     count = evidence.unexplained.sum()
-    least = {True: ENOUGH * count, False: (1 - ROUGHLY) * count}
-    return any(t.gain >= least[t.cost <= ENCLOSED] for t in _good(evidence, trials))
+    return any(
+        t.gain >= count * (ENOUGH if t.cost <= ENCLOSED else 1 - ROUGHLY)
+        for t in _good(evidence, trials)
+    )
 
 
 def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:

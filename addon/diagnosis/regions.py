@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -92,25 +92,18 @@ def regions(
     y, x = np.nonzero(mask)
     if not len(y):
         return []
-    bottom, left = int(np.min(y)), int(np.min(x))
-    held = mask[bottom : int(np.max(y)) + 1, left : int(np.max(x)) + 1]
     while True:
-        label = labels(largest_within(held, near))[y - bottom, x - left]
+        label = labels(largest_within(mask, near))[y, x]
         unique, number = np.unique(label, return_inverse=True)
         if len(unique) <= most:
             break
         near = max(2 * near, 1)
-    order = np.argsort(number, kind="stable")
-    parts = np.split(order, np.flatnonzero(np.diff(number[order])) + 1)
+    parts = [np.flatnonzero(number == n) for n in range(len(unique))]
     parts.sort(key=lambda part: (-len(part), part[0]))
-    found = [_region(y[part], x[part], shown) for part in parts]
-    if causes is None:
-        return found
-    most_often = (int(np.argmax(np.bincount(causes[y[part], x[part]]))) for part in parts)
-    return [replace(region, cause=cause) for region, cause in zip(found, most_often, strict=True)]
+    return [_region(y[part], x[part], shown, causes) for part in parts]
 
 
-def _region(y: Places, x: Places, shown: Sequence[Side]) -> Region:
+def _region(y: Places, x: Places, shown: Sequence[Side], causes: Bytes | None) -> Region:
     count: Counter[str] = Counter()
     for names, number in shown:
         found, many = np.unique(number[y, x], return_counts=True)
@@ -119,7 +112,9 @@ def _region(y: Places, x: Places, shown: Sequence[Side]) -> Region:
                 count[names[n]] += pixels
     left, bottom = int(np.min(x)), int(np.min(y))
     size = int(np.max(x)) - left + 1, int(np.max(y)) - bottom + 1
-    return Region(left, bottom, *size, len(y), tuple(name for name, _ in count.most_common()))
+    objects = tuple(name for name, _ in count.most_common())
+    cause = 0 if causes is None else int(np.argmax(np.bincount(causes[y, x])))
+    return Region(left, bottom, *size, len(y), objects, cause)
 
 
 def labels(mask: Bools) -> Array:

@@ -168,7 +168,8 @@ def counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
     settled = before.unexplained & ~after.unexplained & ~after.causes.unjudged
     stubborn = before.unexplained & after.unexplained & _changed(before, after)
     broken = after.unexplained & before.judged
-    touched = _connected(settled, before.unexplained)
+    label = labels(before.unexplained)
+    touched = before.unexplained & np.isin(label, label[settled])
     return int(settled.sum()), int(broken.sum()), int(stubborn.sum()), int(touched.sum())
 
 
@@ -180,12 +181,6 @@ def _of_object(name: str, before: Evidence, after: Evidence) -> float:
         own |= np.isin(one.frame.object_index, numbers)
     own &= before.unexplained
     return float((~after.unexplained)[own].mean()) if own.any() else 1.0
-
-
-def _connected(seed: Bools, within: Bools) -> Bools:
-    """Return the 8-connected components of a mask (h, w) that contain a seed."""
-    label = labels(within)
-    return within & np.isin(label, label[seed & within])
 
 
 def _changed(before: Evidence, after: Evidence) -> Bools:

@@ -62,8 +62,6 @@ def _surfaces(scene: Scene) -> dict[str, Array]:
             ]
         ),
         "instances": np.stack((triangles[:-1], triangles[1:]), axis=1)[used],
-        "world_from_object": np.array(
-            [instance.world_from_object for instance in scene.instances], float
-        ).reshape(-1, 4, 4),
+        "world_from_object": np.moveaxis(scene.instance_matrices, 2, 0),
         "planes": np.array([(p.point, p.normal) for p in scene.planes], float).reshape(-1, 2, 3),
     }

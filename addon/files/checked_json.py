@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -43,13 +43,12 @@ def read(path: Path, schema: str, no_such: str, of: Callable[[Content], T]) -> T
         raise SceneError(f"'{path}': {error}") from error
 
 
-def objects(content: Content, key: str) -> list[tuple[Content, str]]:
-    """Return the objects of a list, each with its place as messages have it."""
-    items: list[Any] = part(content, key, "", list)
-    for number, item in enumerate(items):
+def objects(content: Content, key: str) -> Iterator[tuple[Content, str]]:
+    """Yield the objects of a list, each with its place as messages have it."""
+    for number, item in enumerate(part(content, key, "", list)):
         if not isinstance(item, dict):
             raise SceneError(f"{key}[{number}] must be an object in braces")
-    return [(item, f"{key}[{number}].") for number, item in enumerate(items)]
+        yield item, f"{key}[{number}]."
 
 
 def camera_of(c: Content) -> Camera:
@@ -59,14 +58,14 @@ def camera_of(c: Content) -> Camera:
     sides = "left", "right", "bottom", "top"
     ends = "x0", "y0", "x1", "y1"
     if (clip_end := c.get("clip_end")) not in (ENDLESS, np.inf):
-        clip_end = numbers(c, "clip_end", "camera.", ())
+        clip_end = number(c, "clip_end", "camera.")
     return Camera(
         numbers(c, "world_from_camera", "camera.", (4, 4)),
-        ViewWindow(**{k: float(numbers(window, k, "camera.window.", ())) for k in sides}),
+        ViewWindow(**{k: number(window, k, "camera.window.") for k in sides}),
         whole(c, "width", "camera."),
         whole(c, "height", "camera."),
         _projection(c),
-        float(numbers(c, "clip_start", "camera.", ())),
+        number(c, "clip_start", "camera."),
         float(clip_end),
         Region(**{k: whole(region, k, "camera.region.") for k in ends}),
         part(c, "name", "camera.", str),
@@ -97,6 +96,11 @@ def whole(content: Content, key: str, where: str) -> int:
     if not 0 <= value < 2**31:
         raise SceneError(f"{where}{key} is {value}; it must be between 0 and 2^31 - 1")
     return value
+
+
+def number(content: Content, key: str, where: str) -> float:
+    """Return a finite number."""
+    return float(numbers(content, key, where, ()))
 
 
 def numbers(content: Content, key: str, where: str, shape: tuple[int, ...] | None) -> Floats:

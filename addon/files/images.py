@@ -7,11 +7,10 @@ A PNG takes zlib and numpy alone. An EXR takes OpenImageIO, the extra `images`.
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -40,6 +39,11 @@ def to_display(color: Floats) -> Bytes:
     for some in parts(len(flat), _TOGETHER):  # temporaries of whole pictures take longer
         out[some] = by_runs(shown, flat[some])
     return out.reshape(np.shape(color))
+
+
+def hex_color(linear: Sequence[float]) -> str:
+    """Return a linear RGBA with premultiplied alpha as #rrggbb of sRGB."""
+    return f"#{to_display(np.array(linear))[:3].tobytes().hex()}"
 
 
 def encoded(color: Floats) -> Floats:
@@ -117,14 +121,8 @@ class PictureFile:
         OSError
             If they are damaged.
         """
-        return _FORMATS[self.path.suffix.lower()].read(self.path)
-
-
-class _Format(NamedTuple):
-    """How a format is read."""
-
-    size: Callable[[Path], tuple[int, int]]
-    read: Callable[[Path], StoredPicture]
+        _, read = _FORMATS[self.path.suffix.lower()]
+        return read(self.path)
 
 
 def open_picture(path: str | Path) -> PictureFile:
@@ -140,17 +138,12 @@ def open_picture(path: str | Path) -> PictureFile:
     path = Path(path)
     if not path.is_file():
         raise OSError(f"there is no file '{path}', or it is a folder or a pipe")
-    of = _FORMATS.get(path.suffix.lower())
-    if of is None:
+    if (suffix := path.suffix.lower()) not in _FORMATS:
         raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
     if said := mistaken(path):
         raise OSError(f"'{path}' {said}")
-    return PictureFile(path, *of.size(path))
-
-
-def read_picture(path: str | Path) -> StoredPicture:
-    """Read a PNG or an EXR whole; raises what :func:`open_picture` and its picture raise."""
-    return open_picture(path).read()
+    size, _ = _FORMATS[suffix]
+    return PictureFile(path, *size(path))
 
 
 def _png_size(path: Path) -> tuple[int, int]:
@@ -199,4 +192,5 @@ def engine_of(notes: Collection[str]) -> str:
     return "cycles" if any(name.startswith("cycles.") for name in notes) else "other"
 
 
-_FORMATS = {".png": _Format(_png_size, _png_of), ".exr": _Format(exr.size, _exr_of)}
+# What reads the size of a file, and what its pixels.
+_FORMATS = {".png": (_png_size, _png_of), ".exr": (exr.size, _exr_of)}

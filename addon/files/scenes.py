@@ -66,10 +66,10 @@ def _mesh_arrays(meshes: Sequence[Mesh]) -> dict[str, Array]:
     colors = [m.corner_colors for m in meshes if m.corner_colors is not None]
     return {
         "meshes": np.array(counts, np.int64).reshape(-1, 4),
-        "vertices": _joined([m.vertices for m in meshes], np.zeros((0, 3), np.float32)),
-        "triangles": _joined([m.triangles for m in meshes], np.zeros((0, 3), np.int32)),
-        "slots": _joined([m.slots for m in meshes], np.zeros(0, np.int32)),
-        "corner_colors": _joined(colors, np.zeros((0, 3, 4), np.float32)),
+        "vertices": np.concatenate([np.zeros((0, 3), np.float32), *(m.vertices for m in meshes)]),
+        "triangles": np.concatenate([np.zeros((0, 3), np.int32), *(m.triangles for m in meshes)]),
+        "slots": np.concatenate([np.zeros(0, np.int32), *(m.slots for m in meshes)]),
+        "corner_colors": np.concatenate([np.zeros((0, 3, 4), np.float32), *colors]),
     }
 
 
@@ -79,12 +79,8 @@ def _instance_arrays(instances: Sequence[Instance]) -> dict[str, Array]:
     return {
         "instances": np.array(rows, np.int64).reshape(-1, 3),
         "world_from_object": np.array(matrices, np.float64).reshape(-1, 4, 4),
-        "colors": _joined([i.colors for i in instances], np.zeros((0, 4), np.float32)),
+        "colors": np.concatenate([np.zeros((0, 4), np.float32), *(i.colors for i in instances)]),
     }
-
-
-def _joined(arrays: Sequence[Array], none: Array) -> Array:
-    return np.concatenate(arrays) if arrays else none
 
 
 def load_scene(path: str | Path) -> Scene:
@@ -96,13 +92,17 @@ def load_scene(path: str | Path) -> Scene:
         If there is no such file, it is not a scene, or its content is inconsistent.
     """
     with npz.opened(path) as stored:
-        return _scene(stored)
+        head = _head(stored)
+        camera, background = camera_of(head["camera"]), np.array(head["background"])
+        return Scene(camera, *_parts(stored, head), background, tuple(map(str, head["objects"])))
 
 
 def load_account(path: str | Path) -> Account:
     """Read what a scene's .npz says of its source; raises what :func:`load_scene` raises."""
     with npz.opened(path) as stored:
-        return _account(stored)
+        head: Content = {"unmodelled": [], "notes": []} | _head(stored)
+        lacks = tuple(_unmodelled(u) for u in part(head, "unmodelled", "", list))
+        return Account(lacks, tuple(map(str, part(head, "notes", "", list))))
 
 
 def _head(stored: npz.Arrays) -> Content:
@@ -113,12 +113,6 @@ def _head(stored: npz.Arrays) -> Content:
     if head.get("schema") != _SCHEMA:
         raise SceneError(f"its schema is {head.get('schema')!r}, not {_SCHEMA!r}")
     return head
-
-
-def _account(stored: npz.Arrays) -> Account:
-    head: Content = {"unmodelled": [], "notes": []} | _head(stored)
-    lacks = tuple(_unmodelled(u) for u in part(head, "unmodelled", "", list))
-    return Account(lacks, tuple(map(str, part(head, "notes", "", list))))
 
 
 def _unmodelled(u: Content) -> Unmodelled:
@@ -134,12 +128,6 @@ def _unmodelled(u: Content) -> Unmodelled:
         effects[effect],
         tuple(map(str, part(u, "by", where, list))),
     )
-
-
-def _scene(stored: npz.Arrays) -> Scene:
-    head = _head(stored)
-    background, objects = np.array(head["background"]), tuple(map(str, head["objects"]))
-    return Scene(camera_of(head["camera"]), *_parts(stored, head), background, objects)
 
 
 def _parts(stored: npz.Arrays, head: Content) -> _Parts:

@@ -61,7 +61,7 @@ def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
 def most_view_error(scene: Scene) -> Floats:
     """Return what :func:`view_error` is at most on each of the k instances, (k,) metres."""
     eye, reach = np.abs(scene.camera.origin).sum(), reaches(scene).sum(axis=0)
-    return np.asarray(U32 * (_MODEL * reach + _VIEW * (reach + eye)), np.float64)
+    return U32 * (_MODEL * reach + _VIEW * (reach + eye))
 
 
 def corner_errors(
@@ -71,9 +71,9 @@ def corner_errors(
 
     `together` makes one of the errors of k corners (3, k) and the barycentrics (3, k).
     """
-    eye = scene.camera.origin
-    far = np.abs(positions - eye).sum(axis=1)
-    error = _MODEL * (np.abs(eye).sum() + far) + _VIEW * (2 * np.abs(eye).sum() + far)
+    eye = np.abs(scene.camera.origin).sum()
+    far = np.abs(positions - scene.camera.origin).sum(axis=1)
+    error = _MODEL * (eye + far) + _VIEW * (2 * eye + far)
     names = np.stack((hits.instance, hits.triangle))
     for mesh, rows in by_mesh(scene, hits.instance):
         # There are mostly more pixels than triangles: corners are looked at once a run of pixels.
@@ -84,7 +84,7 @@ def corner_errors(
         v = mesh.vertices[mesh.triangles[triangle].T].transpose(2, 0, 1)  # component, corner, row
         p = np.abs(transform_points(matrices, v)).sum(axis=0)
         model = transform_points(np.abs(matrices), np.abs(v)).sum(axis=0)
-        own = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
+        own = _MODEL * model + _VIEW * (p + eye)
         error[rows] = together(np.repeat(own, length, axis=1), hits.s[:, rows])
     return U32 * error
 

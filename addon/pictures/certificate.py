@@ -69,7 +69,7 @@ class CameraCertificate(NamedTuple):
 def known_points(camera: Camera) -> Floats:
     """Return points all over the view volume, its corners first: (3, n) float64, world space."""
     w, rng = camera.window, np.random.default_rng(SEED)
-    start, end = float(camera.clip_start), float(camera.clip_end)
+    start, end = camera.clip_start, camera.clip_end
     ends = np.array((start, end if end < np.inf else _ENDLESS * max(abs(start), 1.0)))
     corners = np.meshgrid((w.left, w.right), (w.bottom, w.top), ends, indexing="ij")
     x, y, depth = np.reshape(corners, (3, 8))
@@ -97,7 +97,7 @@ def certify(camera: Camera, points: Floats, film: Floats) -> CameraCertificate:
     allowed = _allowed(camera, points, depth)
     worst = int(np.argmax(np.where(np.isfinite(distance), distance / allowed, np.inf)))
     largest = float(np.nan_to_num(distance[worst], nan=np.finfo(float).max))
-    return CameraCertificate(min(largest, np.finfo(float).max), float(allowed[worst]), len(depth))
+    return CameraCertificate(largest, float(allowed[worst]), len(depth))
 
 
 def _allowed(camera: Camera, points: Array, depth: Array) -> Floats:

@@ -37,11 +37,6 @@ def _eight(values: Array) -> Array:
     return np.rint(EIGHT_BITS * np.clip(values, 0, 1)) / EIGHT_BITS
 
 
-def _in_srgb(color: Array) -> Array:
-    """Return linear values rounded to 8 bits of sRGB's curve."""
-    return curve_undone(_eight(curve(np.clip(color, 0, 1))))
-
-
 def _power(color: Array) -> Array:
     return np.clip(color, 0, 1) ** (1 / 2.2)
 
@@ -49,6 +44,11 @@ def _power(color: Array) -> Array:
 def _of_code(change: Transform) -> Transform:
     """Return what changes linear values by a function of sRGB's."""
     return lambda color: curve_undone(change(curve(np.clip(color, 0, 1))))
+
+
+def _cut_off(levels: int) -> Transform:
+    """Return what rounds values down to levels of sRGB's curve."""
+    return _of_code(lambda v: np.floor(levels * v + 1e-6) / levels)
 
 
 def _to_bits(cut_off: bool, bits: tuple[int, int, int]) -> Transform:
@@ -59,6 +59,7 @@ def _to_bits(cut_off: bool, bits: tuple[int, int, int]) -> Transform:
     return _of_code(lambda v: np.rint(most * v) / most)
 
 
+_in_srgb = _of_code(_eight)  # rounds linear values to 8 bits of sRGB's curve
 ROUNDED_ONCE = Curve("values rounded to 8 bits", _in_srgb, key="rounding_level")
 # What linear values go through, in a name's words; and what of them is then wrong.
 _BEFORE: dict[str, Transform] = {
@@ -100,7 +101,7 @@ ROUNDED = (
     ),
     Curve(
         "values cut off to 8 bits, not rounded",
-        _of_code(lambda v: np.floor(EIGHT_BITS * v + 1e-6) / EIGHT_BITS),
+        _cut_off(EIGHT_BITS),
         key="cut_off",
     ),
     Curve("linear values rounded to 8 bits, before sRGB's curve", _eight, key="rounding_level"),
@@ -139,28 +140,30 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
     yield from CURVES
     if levels:
         for named in (Curve("values", lambda c: c), *CURVES[1:3]):
-            cut = _cut_off(named.of, levels)
+            cut = _one_after_the_other(named.of, _cut_off(levels))
             yield Curve(f"{named.name} cut off, not rounded", cut, key="cut_off")
     for power in (2.2, 1 / 2.2):
         yield _coded_power(power, levels, MAJORITY)
     a, b = traced.ravel(), shown.ravel()
     with np.errstate(invalid="ignore"):
         fits = (a > FIT) & (b > FIT) & np.isfinite(b)
-    if several(a[fits]):
-        factor = float(np.median(b[fits] / a[fits]))
+    a, b = a[fits], b[fits]
+    if several(a):
+        factor = float(np.median(b / a))
         if abs(factor - 1) > LEAST_CHANGE:
             name = f"an exposure of {np.log2(factor):+.3g} stops"
             yield Curve(name, lambda c: c * factor, FITTED_SHARE, "exposure")
-    fits &= (a < 1 - FIT) & (b < 1 - FIT)
-    if several(a[fits]):
-        power = _fitted_power(a[fits], b[fits])
+    fits = (a < 1 - FIT) & (b < 1 - FIT)
+    a, b = a[fits], b[fits]
+    if several(a):
+        power = _fitted_power(a, b)
         if abs(power - 1) > LEAST_CHANGE:
             name = f"a gamma of {1 / power:.3g}"
             yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE, "gamma")
-        coded = _fitted_power(curve(a[fits]), curve(b[fits]))
+        coded = _fitted_power(curve(a), curve(b))
         if abs(coded - 1) > LEAST_CHANGE:
             yield _coded_power(coded, levels, FITTED_SHARE)
-            linear = _fitted_power(a[fits], curve(b[fits]))
+            linear = _fitted_power(a, curve(b))
             yield _coded_power(linear, levels, FITTED_SHARE, of_linear=True)
 
 
@@ -187,24 +190,13 @@ def _coded_power(power: float, levels: int, share: float, of_linear: bool = Fals
     The latter is then taken for coded.
     """
 
-    def transform(color: Array) -> Array:
-        stored = curve(np.clip(color, 0, 1))
+    def change(stored: Array) -> Array:
         if levels:
             stored = np.rint(levels * stored) / levels
-        return curve_undone((curve_undone(stored) if of_linear else stored) ** power)
+        return (curve_undone(stored) if of_linear else stored) ** power
 
     if of_linear:
         name = f"a power of 1/{1 / power:.3g} in place of sRGB's curve"
-        return Curve(name, transform, share, "power_for_srgb")
+        return Curve(name, _of_code(change), share, "power_for_srgb")
     name = f"a gamma of {1 / power:.3g} applied to coded (sRGB) values"
-    return Curve(name, transform, share, "coded_gamma")
-
-
-def _cut_off(of: Transform, levels: int) -> Transform:
-    """Return a transform that then rounds down to `levels` of sRGB's curve."""
-
-    def transform(color: Array) -> Array:
-        stored = levels * curve(np.clip(of(color), 0, 1))
-        return curve_undone(np.floor(stored + 1e-6) / levels)
-
-    return transform
+    return Curve(name, _of_code(change), share, "coded_gamma")

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..files.images import PictureFile
 from ..scene import Camera, Scene
-from ..tracer.memory import ALWAYS, COMPARED, check_memory
+from ..tracer.memory import COMPARED, check_memory
 from .picture import Picture
 from .renderers import RENDERERS, Renderer, renderer_of
 from .sampling import Sampling
@@ -87,7 +87,7 @@ def picture_of_file(file: PictureFile, camera: Camera, making: Making) -> Pictur
         If they are damaged.
     """
     at = traced(camera, (file.height, file.width))
-    check_memory(camera.region.width, camera.region.height, COMPARED, ALWAYS)
+    check_memory(camera.region.width, camera.region.height, COMPARED)
     stored = file.read()
     color = np.ascontiguousarray(stored.color[at])
     dither = 0.0 if stored.levels > 255 else making.default_dither  # of what has 8 bits alone

@@ -104,11 +104,10 @@ class Owners:
         owners = zip(objects[:-1].tolist(), self.instances.tolist(), strict=False)
         pairs = {(own.objects[n], owner) for n, owner in owners}
         several = Counter(name for name, _ in pairs)
-        number = {name: n for n, name in enumerate(self.names)}
-        number |= {name: n for name, n in pairs if several[name] == 1}
-        there = [scene.objects[n] for n in scene.instance_objects[:-1]]
         none = len(self.names)
-        numbers = [number.get(name, none) if several[name] < 2 else none for name in there]
+        number = {name: n for n, name in enumerate(self.names)}
+        number |= {name: n if several[name] == 1 else none for name, n in pairs}
+        numbers = [number.get(scene.objects[n], none) for n in scene.instance_objects[:-1]]
         return replace(self, instances=np.array([*numbers, NOTHING], np.int32))
 
 

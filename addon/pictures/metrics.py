@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Array, Bools, Colors, Floats
+from ..arrays import Array, Bools, Colors, Floats, parts
 from ..tracer.frame import Frame
 from ..tracer.progress import Work
 from .bounds import largest_within
@@ -35,7 +35,7 @@ class Metrics:
     @property
     def psnr(self) -> float:
         """The peak signal-to-noise ratio in decibels; infinite for equal pictures."""
-        return psnr(self.rmse)
+        return float("inf") if self.rmse == 0 else float(20 * np.log10(1 / self.rmse))
 
     def to_dict(self) -> dict[str, object]:
         """Return them as JSON can hold them: no ratio where it is infinite."""
@@ -52,24 +52,7 @@ _ROWS, _COLUMNS = 32, 64  # compared together, so that a step is short
 _WINDOW = 7  # pixels
 
 
-def rmse(first: Array, second: Array) -> float:
-    """Return the root of the mean squared difference over all pixels and channels of (h, w, c).
-
-    Raises
-    ------
-    ValueError
-        If the pictures differ in shape.
-    """
-    _same_shape(first, second)
-    return float(np.sqrt(np.mean((first.astype(np.float64) - second) ** 2)))
-
-
-def psnr(error: float) -> float:
-    """Return the peak signal-to-noise ratio in decibels of an RMSE; infinite for equal pictures."""
-    return float("inf") if error == 0 else float(20 * np.log10(1 / error))
-
-
-def ssim(first: Array, second: Array) -> Work[float]:
+def _ssim(first: Array, second: Array) -> Work[float]:
     """Return the mean structural similarity of two pictures (h, w, c), 1 for equal ones.
 
     The window is uniform, _WINDOW pixels wide and high, or in smaller pictures the largest odd one
@@ -81,7 +64,6 @@ def ssim(first: Array, second: Array) -> Work[float]:
     Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment: from error visibility to
     structural similarity", 2004.
     """
-    _same_shape(first, second)
     shortest = min(first.shape[:2])
     size = min(_WINDOW, shortest - (1 - shortest % 2))
     height = first.shape[0] - size + 1
@@ -92,11 +74,11 @@ def ssim(first: Array, second: Array) -> Work[float]:
     def mean(one: Array, other: Array) -> float:
         return float(_similarity(one, other, size).mean(axis=(0, 1)).sum())
 
-    for y in range(0, height, _ROWS):
-        for x in range(0, width, _COLUMNS):
-            rows, columns = min(_ROWS, height - y), min(_COLUMNS, width - x)
-            part = np.s_[y : y + rows + size - 1, x : x + columns + size - 1]
+    for rows in parts(height, _ROWS):
+        for columns in parts(width, _COLUMNS):
+            part = np.s_[rows.start : rows.stop + size - 1, columns.start : columns.stop + size - 1]
             one, other = first[part], second[part]
+            count = (len(one) - size + 1) * (one.shape[1] - size + 1)
             if (one == one[0, 0]).all() and (other == other[0, 0]).all():
                 # All windows are alike: one is enough, and the same as in other such blocks.
                 one, other = one[:size, :size], other[:size, :size]
@@ -106,7 +88,7 @@ def ssim(first: Array, second: Array) -> Work[float]:
                 similarity = alike[key]
             else:
                 similarity = mean(one, other)
-            total += rows * columns * similarity
+            total += count * similarity
         yield None
     return float(total / (height * width * first.shape[2]))
 
@@ -126,29 +108,20 @@ def _similarity(first: Array, second: Array, size: int) -> Floats:
     return ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
 
 
-def largest_difference(first: Array, second: Array) -> Largest:
-    """Return the largest absolute difference, with the pixel (x, y; row 0 first) and channel."""
-    _same_shape(first, second)
-    difference = np.abs(first.astype(np.float64) - second)
-    y, x, channel = np.unravel_index(int(np.argmax(difference)), difference.shape)
-    return Largest(float(difference[y, x, channel]), (int(x), int(y)), int(channel))
-
-
 def image_metrics(traced: Colors, picture: Colors) -> Work[Metrics]:
-    """Measure how far two pictures (h, w, 4) of linear RGBA differ; NaN counts as 0."""
+    """Measure how far two pictures (h, w, c) of one size differ; NaN counts as 0."""
     a, b = (p if np.isfinite(p).all() else np.nan_to_num(p) for p in (traced, picture))
     height = len(a)
     squares = 0.0
     largest = []  # of each block of rows
-    for start in range(0, height, _ROWS):
-        rows = slice(start, start + _ROWS)
-        squares += rmse(a[rows], b[rows]) ** 2 * len(a[rows])
-        found = largest_difference(a[rows], b[rows])
-        x, y = found.pixel
-        largest.append(found._replace(pixel=(x, start + y)))
+    for rows in parts(height, _ROWS):
+        apart = np.abs(a[rows].astype(np.float64) - b[rows])
+        squares += float(np.sqrt(np.mean(apart**2))) ** 2 * len(apart)
+        y, x, channel = map(int, np.unravel_index(np.argmax(apart), apart.shape))
+        largest.append(Largest(float(apart[y, x, channel]), (x, rows.start + y), channel))
         yield None
     error = float(np.sqrt(squares / height))
-    similarity = yield from ssim(a, b)
+    similarity = yield from _ssim(a, b)
     return Metrics(error, similarity, max(largest, key=lambda found: found.value))
 
 
@@ -163,13 +136,6 @@ def _window_means(pictures: Floats, size: int) -> Floats:
         total /= size
         pictures = total.swapaxes(axis, 0)
     return pictures
-
-
-def _same_shape(first: Array, second: Array) -> None:
-    if first.shape != second.shape or first.ndim != 3:
-        raise ValueError(
-            f"Pictures must be (h, w, c) of one size, not {first.shape} and {second.shape}."
-        )
 
 
 def boundary(frame: Frame) -> Bools:
@@ -187,5 +153,4 @@ def beside_edges(color: Array, least: float) -> Bools:
     By more than `least` in a channel.
     """
     apart = [largest_within(v, 1) + largest_within(-v, 1) for v in np.moveaxis(color, -1, 0)]
-    out: Bools = np.max(apart, axis=0) > least
-    return out
+    return np.max(apart, axis=0) > least

@@ -122,21 +122,20 @@ def _clear() -> Bytes:
         red, green, blue = squares[at]
         return red[:, None, None] + green[:, None] + blue
 
-    places = np.indices((_LEVELS,) * 3, np.int32).reshape(3, -1).T
     behind = [distance(np.searchsorted(steps, color)) for color in _TAKEN]
     taken = np.stack(behind).min(axis=0)
     open_ = taken.copy()  # squared distance to the nearest; below 0 where none may come
     chosen = []
-    while (first := np.unravel_index(np.argmax(open_), open_.shape)) and open_[first] > 0:
+    while open_.flat[first := np.argmax(open_)] > 0:
+        at = np.unravel_index(first, open_.shape)
         chosen.append(first)
-        np.minimum(open_, distance(np.array(first)), out=open_)
-        for place in permutations(first):
+        np.minimum(open_, distance(np.array(at)), out=open_)
+        for place in permutations(at):
             open_[tuple(slice(max(k - 1, 0), k + 2) for k in place)] = -1
-    is_left = np.ones(taken.shape, bool)
-    is_left[tuple(np.array(chosen).T)] = False
-    left = places[is_left.reshape(-1)]
-    left = left[np.argsort(-taken[is_left], kind="stable")]
-    return steps[np.concatenate((np.array(chosen), left))[:MOST]].astype(np.uint8)
+    farthest_first = np.argsort(-taken, axis=None, kind="stable")
+    left = farthest_first[~np.isin(farthest_first, chosen)]
+    order = np.unravel_index(np.append(chosen, left)[:MOST], taken.shape)
+    return steps[np.stack(order, axis=1)].astype(np.uint8)
 
 
 def not_told_apart(scene: Scene, owners: Sequence[str]) -> tuple[str, str] | None:

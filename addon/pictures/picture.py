@@ -106,7 +106,7 @@ class Picture:
 
     def sees_apart(self, first: Frame, second: Frame) -> Bools:
         """Return where two frames (h, w) have something else to show in such a picture."""
-        return np.asarray((first.color != second.color).any(axis=-1), np.bool_)
+        return (first.color != second.color).any(axis=-1)
 
     def holds_as(self, other: Picture) -> bool:
         """Return whether another picture holds the same pixels."""

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -87,49 +86,34 @@ def _of_rays(scene: Scene, hits: Hits, positions: Floats) -> Floats:
     """
     moved = _moved(scene, hits, positions)
     camera = scene.camera
-    ways = positions - camera.origin
+    of_mesh, (p1, p2, p3), reach = _triangles(scene, hits)
+    ways = (positions[of_mesh] - camera.origin).T
     if camera.projection.shares_direction:
-        ways = np.broadcast_to(camera.forward, ways.shape)
-    triangles = _Triangles.of(scene, hits)
-    moved[triangles.of_mesh] += triangles.edge_errors(ways[triangles.of_mesh].T)
+        ways = np.broadcast_to(camera.forward[:, None], ways.shape)
+    sines = [np.nan_to_num(_sine(ways, e), nan=1.0) for e in (p2 - p1, p3 - p1, p3 - p2)]
+    moved[of_mesh] += _EDGE * U32 * reach / np.maximum(np.min(sines, axis=0), _LEAST_SINE)
     return moved
 
 
-class _Triangles(NamedTuple):
-    """The m triangles of a mesh among what n rays hit."""
+def _triangles(scene: Scene, hits: Hits) -> tuple[Places, Floats, Floats]:
+    """Return which m of the hits are a mesh's, their corners, (3, 3, m), and how far they reach.
 
-    of_mesh: Places  # (m,) which of the n
-    reach: Floats  # (m,) metres: how far the camera is from their farthest corner
-    edges: tuple[Floats, ...]  # (3, m) each
+    The last is the distance from the camera to the farthest corner, (m,) metres.
+    """
+    of_mesh = np.flatnonzero(hits.instance < len(scene.instances))
+    corners = world_corners(scene, hits.instance[of_mesh], hits.triangle[of_mesh])
+    eye = scene.camera.origin[:, None]
+    return of_mesh, corners, largest(*(_length(p - eye) for p in corners))
 
-    @classmethod
-    def of(cls, scene: Scene, hits: Hits) -> _Triangles:
-        of_mesh = np.flatnonzero(hits.instance < len(scene.instances))
-        corners = world_corners(scene, hits.instance[of_mesh], hits.triangle[of_mesh])
-        eye = scene.camera.origin[:, None]
-        reach = largest(*(_length(p - eye) for p in corners))
-        p1, p2, p3 = corners
-        return cls(of_mesh, reach, (p2 - p1, p3 - p1, p3 - p2))
 
-    def edge_errors(self, ways: Floats) -> Floats:
-        """Return how far rounding moves the edges for rays (3, m), (m,) metres."""
-        lengths = np.array([_length(e) for e in self.edges])
-        across = np.array([_length(cross(ways, e)) for e in self.edges])
-        with np.errstate(divide="ignore", invalid="ignore"):
-            sines = across / (_length(ways) * lengths)
-        least = np.min(np.maximum(np.nan_to_num(sines, nan=1.0), _LEAST_SINE), axis=0)
-        return np.asarray(_EDGE * U32 * self.reach / least, np.float64)
-
-    def sines(self) -> Floats:
-        """Return the sine of their first corner, (m,)."""
-        e1, e2, _ = self.edges
-        with np.errstate(divide="ignore", invalid="ignore"):
-            sine = _length(cross(e1, e2)) / (_length(e1) * _length(e2))
-        return np.maximum(np.nan_to_num(sine), _LEAST_SINE)
+def _sine(first: Floats, second: Floats) -> Floats:
+    """Return the sine of the angle between vectors (3, m), (m,); NaN where one is zero."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return _length(cross(first, second)) / (_length(first) * _length(second))
 
 
 def _length(vectors: Floats) -> Floats:
-    return np.asarray(np.sqrt(dot(vectors, vectors)))
+    return np.sqrt(dot(vectors, vectors))
 
 
 def _ray_depth(scene: Scene, hits: Hits, positions: Floats, rays: Rays) -> Floats:
@@ -146,9 +130,9 @@ def _ray_depth(scene: Scene, hits: Hits, positions: Floats, rays: Rays) -> Float
     cosine = np.maximum(np.abs(dot(n, directions)) / length, _LEAST_SINE)
     reach = np.abs(positions - scene.camera.origin).sum(axis=1)
     sine = np.ones(len(hits))
-    triangles = _Triangles.of(scene, hits)
-    reach[triangles.of_mesh] = triangles.reach
-    sine[triangles.of_mesh] = triangles.sines()
+    of_mesh, (p1, p2, p3), reach_of_mesh = _triangles(scene, hits)
+    reach[of_mesh] = reach_of_mesh
+    sine[of_mesh] = np.maximum(np.nan_to_num(_sine(p2 - p1, p3 - p1)), _LEAST_SINE)
     # t is in units of the direction's length, a depth; distances are along the ray.
     return (moved + _QUOTIENT * U32 * reach / sine) / (cosine * length)
 

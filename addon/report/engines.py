@@ -12,8 +12,7 @@ from .folders import write_all
 from .tables import columns
 
 JSON = "engines.json"
-_HEAD = "engine", "differ", "inside", "edges", "object", "unexpl.", " verdict"
-_WIDTHS = 10, 8, 7, 7, 7, 8
+_HEAD = "engine", "differ", "inside", "edges", "object", "unexpl.", "verdict"
 _NAMED = 3  # pixels of each engine
 
 
@@ -30,7 +29,7 @@ def write(directory: str | Path, rows: Sequence[EngineRow]) -> None:
 
 def lines(rows: Sequence[EngineRow]) -> list[str]:
     """Return the table of the engines, the first pixels of each that differ, and its checks."""
-    out = columns([_HEAD, *map(_cells, rows)], left=(0, 6), gap=" ", least=_WIDTHS)
+    out = columns([_HEAD, *map(_cells, rows)], left=(0, 6))
     for row in rows:
         for w in row.wrong[:_NAMED]:
             x, y = w["pixel"]
@@ -48,7 +47,7 @@ def _cells(row: EngineRow) -> Sequence[str] | str:
     p = row.counts
     counts = p.differ, p.interior.differ, p.boundary.differ, row.wrong_objects
     found = ["?" if n is None else f"{n:,}" for n in (*counts, p.unexplained)]
-    return [row.engine, *found, f" {row.verdict}"]
+    return [row.engine, *found, row.verdict]
 
 
 def _sides(wrong: Mapping[str, object]) -> str:

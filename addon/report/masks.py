@@ -41,11 +41,12 @@ def runs(mask: Bools) -> dict[str, Any]:
 
 def box(mask: Bools) -> list[int]:
     """Return the smallest box around a mask (h, w): x, y, width, height; y from the top."""
-    rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
-    if not len(rows):
+    places = np.argwhere(mask)
+    if not len(places):
         return [0, 0, 0, 0]
-    (y0, y1), (x0, x1) = ((int(v[0]), int(v[-1]) + 1) for v in (rows, columns))
-    return [x0, y0, x1 - x0, y1 - y0]
+    y, x = places.min(axis=0).tolist()
+    height, width = (np.ptp(places, axis=0) + 1).tolist()
+    return [x, y, width, height]
 
 
 def whole(frame: Frame, number: int) -> Bools:
@@ -53,7 +54,7 @@ def whole(frame: Frame, number: int) -> Bools:
     scene = frame.scene
     others = [name for n, name in enumerate(scene.objects) if n != number]
     hits = trace(without(scene, others), Settings())
-    return np.asarray(hits.instance != NOTHING, np.bool_).reshape(frame.shape)
+    return (hits.instance != NOTHING).reshape(frame.shape)
 
 
 def write(directory: Path, frame: Frame, picture: str) -> list[str]:

@@ -11,13 +11,13 @@ INK, GREY = "#222222", "#707070"
 class Scale(NamedTuple):
     """The scale of a plot's side: the numbers at its ends, and those that are written.
 
-    Its `kind` is "linear", "integers" or "log", with round numbers from `least` on (None: from the
-    low end); or "named", without. `named` are the numbers that have words of their own.
+    Its `kind` is "integers" or "log", with round numbers from `least` on (None: from the low end);
+    or "named", without. `named` are the numbers that have words of their own.
     """
 
     low: float
     high: float
-    kind: str = "linear"
+    kind: str
     named: Sequence[tuple[float, str]] = ()
     least: float | None = None
 

@@ -3,31 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from itertools import zip_longest
 
 
-def columns(
-    rows: Sequence[Sequence[str] | str],
-    left: Collection[int] = (0,),
-    gap: str = "  ",
-    least: Sequence[int] = (),
-) -> list[str]:
+def columns(rows: Sequence[Sequence[str] | str], left: Collection[int] = (0,)) -> list[str]:
     """Return rows of cells as lines, each column as wide as its widest cell.
 
     All rows have the same number of cells. A str is a line by itself, such as a title. The cells of
-    the columns `left` are flush left, those of the others flush right. `gap` stands between two
-    columns; `least` has the least widths of the first columns.
+    the columns `left` are flush left, those of the others flush right.
     """
     cells = [row for row in rows if not isinstance(row, str)]
-    widest = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    widths = [max(pair) for pair in zip_longest(widest, least[: len(widest)], fillvalue=0)]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
 
     def line(row: Sequence[str]) -> str:
         padded = (
             cell.ljust(width) if k in left else cell.rjust(width)
             for k, (cell, width) in enumerate(zip(row, widths, strict=True))
         )
-        return gap.join(padded).rstrip()
+        return "  ".join(padded).rstrip()
 
     return [row if isinstance(row, str) else line(row) for row in rows]
 

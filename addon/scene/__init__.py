@@ -89,6 +89,12 @@ class Scene:
         return np.array([i.mesh for i in self.instances], np.intp)
 
     @cached_property
+    def instance_bounds(self) -> Floats:
+        """Lowest and highest coordinates of each instance in its object's space, (2, 3, k)."""
+        bounds = np.array([mesh.bounds for mesh in self.meshes]).reshape(-1, 2, 3)
+        return bounds[self.instance_meshes].transpose(1, 2, 0)
+
+    @cached_property
     def instance_objects(self) -> Integers:
         """The object of each instance and plane, and -1 at the end, for nothing: (k + 1,)."""
         of_instances = [i.object for i in self.instances]

@@ -120,8 +120,9 @@ class Camera:
             finite(self.world_from_camera, (4, 4), f"The matrix of camera '{self.name}'"),
         )
         axes = self.world_from_camera[:3, :3]
-        if np.abs(axes).max() > _LONGEST or abs(np.linalg.det(axes)) < 1 / _LONGEST:
-            wrong = "are too long" if np.abs(axes).max() > _LONGEST else "lie in a plane"
+        too_long = np.abs(axes).max() > _LONGEST
+        if too_long or abs(np.linalg.det(axes)) < 1 / _LONGEST:
+            wrong = "are too long" if too_long else "lie in a plane"
             raise SceneError(f"The axes of camera '{self.name}' {wrong}: clear its scale.")
         if self.region is None:
             store(self, "region", Region(0, 0, self.width, self.height))

@@ -26,13 +26,10 @@ def mark(rows: Sequence[TradeRow]) -> list[TradeRow]:
     pixels cannot have as many wrong. Coverage is compared over all, as every picture is held
     against the same one.
     """
-    sizes: dict[tuple[int, int], list[TradeRow]] = {}
-    for r in rows:
-        sizes.setdefault((r.width, r.height), []).append(r)
     return [
         replace(
             r,
-            best_pixels=_unbeaten(r, sizes[r.width, r.height], "wrong_pixels"),
+            best_pixels=_unbeaten(r, [o for o in rows if o.width == r.width], "wrong_pixels"),
             best_coverage=_unbeaten(r, rows, "coverage_error"),
         )
         for r in rows

@@ -8,11 +8,12 @@ whether a ray must cross the scene's surfaces an even or an odd number of times,
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arrays import Bools
 from ..certified.definition import definition
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
@@ -71,11 +72,6 @@ class BreakingPoint(NamedTuple):
     wrong: float | None
     doubled: float | None
     lost: float | None  # the first of `missed` and `wrong`
-
-    @property
-    def never(self) -> bool:
-        """Whether the method holds at every scale."""
-        return self.lost is None and self.doubled is None
 
 
 def breaking_points(rows: Sequence[ExtremesRow]) -> list[BreakingPoint]:
@@ -168,32 +164,36 @@ def _plain_row(
     frame = plain.frame
     off = frame.wrong_against(truth.frame).ravel()
     found = frame.triangle_index.ravel() != NOTHING
-    return replace(
-        _row(scenario, scale, truth, frame, settings),
-        missed=int((off & ~found).sum()),
-        doubled=int((plain.count > truth.count).sum()),
-        wrong=int((off & found).sum()),
-        largest_t_error=largest_t_error(frame, truth.frame, in_ulp=True),
-    )
+    errors = off & ~found, plain.count > truth.count, off & found
+    t_error = largest_t_error(frame, truth.frame, in_ulp=True)
+    return _row(scenario, scale, frame, settings, errors, largest_t_error=t_error)
 
 
 def _row(
-    scenario: Scenario, scale: float, truth: Truth, frame: Frame, settings: Settings
+    scenario: Scenario,
+    scale: float,
+    frame: Frame,
+    settings: Settings,
+    errors: tuple[Bools, Bools, Bools],
+    **more: Any,
 ) -> ExtremesRow:
-    """Return a row with what all rows say alike, and no errors yet."""
+    """Return a row, given which rays are missed, doubled and wrong; and what not all rows have."""
     precision = settings.precision
     rays = pixel_rays(frame.scene.camera, precision)
     finite = np.isfinite(rays.origins).all(axis=0) & np.isfinite(rays.directions).all(axis=0)
+    refused = frame.statistics.refused + int((~finite).sum())
+    missed, doubled, wrong = (int(which.sum()) for which in errors)
     return ExtremesRow(
         scenario.name,
         scale,
         settings.method.value,
         precision.value,
-        rays=truth.count.size,
-        missed=0,
-        doubled=0,
-        wrong=0,
-        refused=frame.statistics.refused + int((~finite).sum()),
+        finite.size,
+        missed,
+        doubled,
+        wrong,
+        refused,
+        **more,
     )
 
 
@@ -216,13 +216,13 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
         if right and exact.t < np.inf:
             t = float(frame.t.flat[pixel])
             errors.append(abs(t - exact.t) / float(np.spacing(exact.t)))
-    statistics = frame.statistics
-    return replace(
-        _row(scenario, scale, truth, frame, CERTIFIED),
-        missed=int(missed.sum()),
-        doubled=int(doubled.sum()),
-        wrong=int(wrong.sum()),
+    return _row(
+        scenario,
+        scale,
+        frame,
+        CERTIFIED,
+        (missed, doubled, wrong),
         largest_t_error=max(errors, default=None),
-        exact=statistics.pairs_exact / statistics.pairs_tested if statistics.pairs_tested else 0.0,
+        exact=frame.statistics.pairs_exact / max(1, frame.statistics.pairs_tested),
         judged=len(pixels),
     )

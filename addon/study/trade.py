@@ -55,13 +55,12 @@ class TradeRow:
 class Column:
     """One thing that is measured of each row, and how it is shown.
 
-    The tables, the page, the panel, the plot, the JSON and the cluster's check read it from here;
-    `tradeoff.py` measures it.
+    The tables, the page, the panel, the plot and the JSON read it from here; `tradeoff.py` measures
+    it.
     """
 
     name: str  # the field of `TradeRow`
     head: str  # above it in a table
-    timed: bool  # whether it is another number in every run and on every machine
     show: Callable[[TradeRow], str]
     unit: str = ""  # what its number is, for the reader of the JSON; empty: the JSON leaves it out
     best: str = ""  # the field that says that no other row beats this one here
@@ -84,15 +83,13 @@ COLUMNS = (
     Column(
         "seconds",
         "seconds",
-        True,
         lambda r: f"{r.seconds:.4f}",
         unit="seconds, the median of the rounds",
     ),
-    Column("rounds", "(min - max)", True, lambda r: f"({r.fastest:.4f} - {r.slowest:.4f})"),
+    Column("rounds", "(min - max)", lambda r: f"({r.fastest:.4f} - {r.slowest:.4f})"),
     Column(
         "wrong_pixels",
         "wrong pixels",
-        False,
         lambda r: f"{r.wrong_pixels:,}",
         unit="pixels that see another surface than the certified picture does",
         best="best_pixels",
@@ -100,27 +97,23 @@ COLUMNS = (
     Column(
         "largest_t_error",
         "t error, m",
-        False,
         _t_error,
         unit="metres along the view axis, where both see the same; null: nowhere",
     ),
     Column(
         "peak_bytes",
         "MiB",
-        True,
         lambda r: f"{r.peak_bytes / 2**20:.1f}",
         unit="bytes of the working arrays and the picture",
     ),
     Column(
         "coverage_error",
         "coverage",
-        False,
         lambda r: f"{r.coverage_error:.4f}",
         unit="root mean square of linear RGBA against the converged picture",
         best="best_coverage",
     ),
 )
-TIMED = frozenset(c.name for c in COLUMNS if c.timed)
 
 
 @dataclass(frozen=True)

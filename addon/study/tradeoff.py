@@ -11,6 +11,7 @@ import tracemalloc
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from statistics import median
+from typing import Any
 
 from ..arrays import Floats
 from ..methods import Method
@@ -49,10 +50,7 @@ class Choice:
 
     settings: Settings
     scene: Scene  # of the row's resolution
-    wrong_pixels: int = 0
-    largest_t_error: float | None = None
-    peak_bytes: int = 0
-    coverage_error: float = 0.0
+    measured: dict[str, Any] = field(default_factory=dict)  # by the field of `TradeRow`
     rounds: list[float] = field(default_factory=list)
 
     @property
@@ -78,11 +76,8 @@ class Choice:
             width=camera.width,
             height=camera.height,
             seconds=median(self.rounds),
-            wrong_pixels=self.wrong_pixels,
-            largest_t_error=self.largest_t_error,
-            peak_bytes=self.peak_bytes,
-            coverage_error=self.coverage_error,
             rounds=tuple(self.rounds),
+            **self.measured,
         )
 
 
@@ -169,31 +164,35 @@ def _look_at_all(choices: list[Choice], truth: Floats) -> Work[None]:
     total, done = sum(c.cost for c in choices), 0.0
     certified: dict[int, Frame] = {}  # by the picture's width
     for choice in sorted(choices, key=lambda c: not c.settings.method.is_proven):
-        frame = yield from scaled(_look(choice), done / total, choice.cost / total)
+        frame, peak = yield from scaled(_look(choice), done / total, choice.cost / total)
         done += choice.cost
         proven = certified.setdefault(choice.scene.camera.width, frame)
-        choice.wrong_pixels = int(frame.wrong_against(proven).sum())
-        choice.largest_t_error = largest_t_error(frame, proven)
-        choice.coverage_error = coverage_error(frame.color, truth)
+        choice.measured = {
+            "wrong_pixels": int(frame.wrong_against(proven).sum()),
+            "largest_t_error": largest_t_error(frame, proven),
+            "peak_bytes": peak,
+            "coverage_error": coverage_error(frame.color, truth),
+        }
 
 
-def _look(choice: Choice) -> Work[Frame]:
-    """Render with tracemalloc watching, to which numpy tells its memory."""
+def _look(choice: Choice) -> Work[tuple[Frame, int]]:
+    """Render with tracemalloc watching, to which numpy tells its memory; return the most, too."""
     ours = not tracemalloc.is_tracing()
     if ours:
         tracemalloc.start()
     try:
         tracemalloc.reset_peak()
         before = tracemalloc.get_traced_memory()[0]
+        most = 0
         frame = Frame.empty(choice.scene)
         # A scene keeps tables once they are made: each row makes its own.
         for event in steps(replace(choice.scene), choice.settings, frame):
             held, peak = tracemalloc.get_traced_memory()
-            choice.peak_bytes = max(choice.peak_bytes, peak - before)
+            most = max(most, peak - before)
             yield event
             before += tracemalloc.get_traced_memory()[0] - held  # what others took meanwhile
             tracemalloc.reset_peak()
-        return frame
+        return frame, most
     finally:
         if ours:
             tracemalloc.stop()

@@ -57,31 +57,30 @@ def plain_of(scene: Scene, precision: Precision) -> Work[dict[Method, Truth]]:
     Its frames have no colours. Infinite planes are seen, but not counted.
     """
     region, rays = scene.camera.region, pixel_rays(scene.camera, precision)
-    found = {s.method: s for s in UNPROVEN_SETTINGS if s.precision == precision}
-    hits = {method: Hits.none(rays.count) for method in found}
-    count = {method: np.zeros(rays.count, np.int64) for method in found}
-    for method in found:
-        test_planes(scene, rays, hits[method])
-    made = yield from plan(scene, next(iter(found.values())), reach=0.0)
+    every = [s for s in UNPROVEN_SETTINGS if s.precision == precision]
+    found = [(s, Hits.none(rays.count), np.zeros(rays.count, np.int64)) for s in every]
+    for _, hits, _ in found:
+        test_planes(scene, rays, hits)
+    made = yield from plan(scene, every[0], reach=0.0)
     for share, some in candidates(made, region):
         yield Progress(share)
         if some is None:
             continue
-        for method, settings in found.items():
-            crossed = some.pixel[test_pairs(scene, settings, rays, some, hits[method])[0]]
-            count[method] += np.bincount(crossed, minlength=rays.count)
+        for settings, hits, count in found:
+            crossed = some.pixel[test_pairs(scene, settings, rays, some, hits)[0]]
+            count += np.bincount(crossed, minlength=rays.count)
     out = {}
-    for method in found:
+    for settings, hits, count in found:
         frame = Frame.empty(scene)
-        frame.enter(slice(0, region.height), hits[method])
+        frame.enter(slice(0, region.height), hits)
         frame.statistics.refused = made.refused
-        out[method] = Truth(frame, count[method])
+        out[settings.method] = Truth(frame, count)
     return out
 
 
 def pixel_rays(camera: Camera, precision: Precision) -> Rays:
     """Return the rays through the centres of the camera's pixels, row by row from the lowest."""
-    return camera_rays(camera, *film_positions(camera.region, 0.0, 0.0), precision.dtype)
+    return camera_rays(camera, *film_positions(camera.region), precision.dtype)
 
 
 def largest_t_error(frame: Frame, certified: Frame, in_ulp: bool = False) -> float | None:

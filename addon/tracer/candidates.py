@@ -31,7 +31,6 @@ from .world import (
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region, Scene
-    from .settings import Settings
 
 # The error of camera-space coordinates and of rays, in eps (2 u) of the sum of their |terms|. A
 # rounding is half an eps: one for v - o, five for each dot product, three for a ray's direction,
@@ -57,7 +56,7 @@ class Plan:
     """The batches of a scene, each with the rows of pixels that it may cover.
 
     It holds for rays within `reach` pixels of their pixel's centre, and vertices rounded to
-    `dtype`. Pairs may take about `memory` bytes. An unproven method has its `settings` here.
+    `dtype`. Pairs may take about `memory` bytes.
     """
 
     scene: Scene
@@ -67,7 +66,6 @@ class Plan:
     batches: list[Batch]
     rows: list[tuple[int, int]]  # first and end
     refused: int  # how many triangles are not finite in world space
-    settings: Settings | None
     kept: list[_Bounded]  # of the first batches
 
 
@@ -148,25 +146,12 @@ def _pixel(value: Floats, low: int, high: int, unknown: int) -> Integers:
 
 
 def within(bounds: Integers, tile: Region) -> Integers:
-    """Intersect boxes of pixels with a tile; both (4, m), as :func:`pixel_bounds` has them."""
-    x0, x1, y0, y1 = bounds
-    return np.stack(
-        (
-            np.maximum(x0, tile.x0),
-            np.minimum(x1, tile.x1),
-            np.maximum(y0, tile.y0),
-            np.minimum(y1, tile.y1),
-        )
-    )
+    """Intersect boxes of pixels with a tile; they are as :func:`pixel_bounds` has them, (4, m)."""
+    x = np.clip(bounds[:2], tile.x0, tile.x1)
+    return np.concatenate((x, np.clip(bounds[2:], tile.y0, tile.y1)))
 
 
-def cull(
-    scene: Scene,
-    dtype: np.dtype[np.floating],
-    memory: int,
-    reach: float,
-    settings: Settings | None = None,
-) -> Work[Plan]:
+def cull(scene: Scene, dtype: np.dtype[np.floating], memory: int, reach: float) -> Work[Plan]:
     """Find the batches that are in view, and their rows."""
     found = []
     rows = []
@@ -184,7 +169,7 @@ def cull(
             found.append(batch)
             rows.append((int(y0[seen].min()), int(y1[seen].max())))
         yield None
-    return Plan(scene, dtype, memory, reach, found, rows, refused, settings, kept)
+    return Plan(scene, dtype, memory, reach, found, rows, refused, kept)
 
 
 def _bounds(scene: Scene, dtype: np.dtype[np.floating], reach: float, batch: Batch) -> _Bounded:

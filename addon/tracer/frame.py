@@ -186,7 +186,7 @@ class Frame:
         """Return where the rays of some rows end, (n, 3), as `position` has it."""
         r = self.scene.camera.region
         y0, y1, _ = rows.indices(self.shape[0])
-        film = film_positions(Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), 0.0, 0.0)
+        film = film_positions(Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1))
         return shading.positions(camera_rays(self.scene.camera, *film), self.hits(rows))
 
     def _normals(self, rows: slice) -> Floats:

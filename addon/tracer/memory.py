@@ -51,7 +51,10 @@ def give_back() -> None:
 def free_memory() -> int | None:
     """Return how many bytes are free without swapping; None if the system does not say."""
     if sys.platform == "win32":
-        return _free_on_windows()
+        # A MEMORYSTATUSEX: its length and the load in 32 bits each, the total, what is free, ...
+        status = (ctypes.c_uint64 * 8)(64)
+        done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+        return status[2] if done else None
     found: list[int] = []
     for ask in (_free_of_machine, _free_of_container, _free_of_process):
         # The system may not have this limit, or call it "max": then there is none.
@@ -80,12 +83,3 @@ def _free_of_process() -> list[int]:
     soft = [(resource.getrlimit(kind)[0], int(used)) for kind, used in limits]
     page = resource.getpagesize()
     return [limit - used * page for limit, used in soft if limit != resource.RLIM_INFINITY]
-
-
-def _free_on_windows() -> int | None:
-    if sys.platform != "win32":  # the type checker then knows that there is a `windll`
-        return None
-    # A MEMORYSTATUSEX: its length and the load in 32 bits each, the total, what is free, ...
-    status = (ctypes.c_uint64 * 8)(64)
-    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
-    return status[2] if done else None

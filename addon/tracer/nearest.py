@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -51,21 +52,22 @@ def tracer(
     """
     made = yield from plan(scene, settings, reach)
     statistics.refused = made.refused
-    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics, literally)
+    return partial(_trace, made, settings, statistics, literally)
 
 
 def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
     """Look at every batch once; yields 0, as nothing is traced yet."""
-    return cull(scene, settings.precision.dtype, settings.memory, reach, settings)
+    return cull(scene, settings.precision.dtype, settings.memory, reach)
 
 
-def trace_tile(
+def _trace(
     plan: Plan,
+    settings: Settings,
+    statistics: Statistics,
+    literally: TakeHits | None,
     tile: Region,
-    dx: float = 0.0,
-    dy: float = 0.0,
-    statistics: Statistics | None = None,
-    literally: TakeHits | None = None,
+    dx: float,
+    dy: float,
 ) -> Work[Hits]:
     """Find the nearest hits of the rays of a tile, in small steps.
 
@@ -74,9 +76,6 @@ def trace_tile(
     `literally` is as :func:`tracer` has it.
     """
     scene = plan.scene
-    settings = plan.settings
-    assert settings, "the plan of an unproven method has its settings"
-    statistics = statistics or Statistics()
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
     statistics.pairs_tested += len(scene.planes) * len(hits)

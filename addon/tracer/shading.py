@@ -12,10 +12,10 @@ import numpy as np
 
 from ..arrays import Bools, Colors, Floats, Index, Places, by_runs
 from ..scene import Mesh, Scene
+from . import world
 from .camera import Rays
 from .hits import NOTHING, Hits
 from .vector import Vectors, cross, dot, largest
-from .world import world_corners
 
 
 def colors(scene: Scene, hits: Hits) -> Colors:
@@ -67,7 +67,7 @@ def _normals(scene: Scene, instance: Index, triangle: Index) -> Vectors:
         n[:, instance == index] = infinite.normal[:, None]
     rows = np.flatnonzero((instance != NOTHING) & (instance < len(scene.instances)))
     of_mesh = instance[rows]
-    corners = world_corners(scene, of_mesh, triangle[rows])
+    corners = world.world_corners(scene, of_mesh, triangle[rows])
     p1, p2, p3 = corners * 2.0**-2  # so that their differences are finite
     x, y, z = map(near_1, scene.instance_matrices[:3, :3].swapaxes(0, 1))  # images of the axes
     mirrored = (dot(cross(x, y), z) < 0)[of_mesh]
@@ -96,9 +96,5 @@ def positions(rays: Rays, hits: Hits) -> Vectors:
 def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Places]]:
     """Yield each mesh among instances (n,) with its rows of them; no planes, and not NOTHING."""
     on_mesh = np.flatnonzero((instance != NOTHING) & (instance < len(scene.instances)))
-    meshes = scene.instance_meshes[instance[on_mesh]]
-    if len(meshes) and (meshes == meshes[0]).all():
-        yield scene.meshes[meshes[0]], on_mesh
-        return
-    for index in np.unique(meshes):
-        yield scene.meshes[index], on_mesh[meshes == index]
+    for mesh, rows in world.by_mesh(scene, instance[on_mesh]):
+        yield mesh, on_mesh[rows]

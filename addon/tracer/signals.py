@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
@@ -52,7 +52,13 @@ def heard() -> Iterator[None]:
         yield
         return
     answered()
-    told, sys.unraisablehook = sys.unraisablehook, _unless_heard(sys.unraisablehook)
+    told = sys.unraisablehook
+
+    def unless_heard(swallowed: sys.UnraisableHookArgs) -> None:
+        if not issubclass(swallowed.exc_type, KeyboardInterrupt):
+            told(swallowed)
+
+    sys.unraisablehook = unless_heard
     try:
         yield
     finally:
@@ -60,18 +66,6 @@ def heard() -> Iterator[None]:
         for number, handler in before.items():
             signal.signal(number, handler)
         answered()  # what comes later is not meant
-
-
-def _unless_heard(
-    told: Callable[[sys.UnraisableHookArgs], object],
-) -> Callable[[sys.UnraisableHookArgs], object]:
-    """Return what tells of an exception that was swallowed, but for that of a signal."""
-
-    def hook(swallowed: sys.UnraisableHookArgs) -> None:
-        if not issubclass(swallowed.exc_type, KeyboardInterrupt):
-            told(swallowed)
-
-    return hook
 
 
 def check() -> None:

@@ -79,8 +79,6 @@ class Ties(Mapping[int, frozenset[Name]]):
 
     def numbered(self, numbers: Index | int) -> Ties:
         """Return the ties with ray i called numbers[i], which ascend, or i + numbers."""
-        if isinstance(numbers, int) and not numbers:
-            return self
         ray = self.ray + numbers if isinstance(numbers, int) else numbers[self.ray]
         return replace(self, ray=ray.astype(np.int64, copy=False))
 

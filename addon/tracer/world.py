@@ -18,7 +18,7 @@ from .camera import dual_axes, project
 from .vector import Arrays, Vectors, gather, transform_points
 
 if TYPE_CHECKING:
-    from ..scene import Scene
+    from ..scene import Mesh, Scene
 
 BATCH = 1 << 14  # triangles in a batch, about: a few milliseconds of work, some MiB
 
@@ -159,21 +159,21 @@ def world_triangles(
     return WorldTriangles(corners, np.repeat(batch.instances, each), triangle)
 
 
+def finite_triangles(scene: Scene) -> WorldTriangles:
+    """Return all triangles of a scene that are finite in world space, in float64."""
+    every = [world_triangles(scene, batch, np.float64) for batch in batches(scene)]
+    found = WorldTriangles.joined([WorldTriangles.none(), *every])
+    return found.take(np.flatnonzero(found.finite))
+
+
 def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
     """Return the corners of named triangles in world space, (corner, component, m) float64."""
     out = np.empty((3, 3, len(instance)))
-    groups: list[Index | slice] = [slice(None)]
-    if len(instance) and (instance[0] != instance).any():
-        of = scene.instance_meshes[instance]
-        groups = [np.flatnonzero(of == mesh) for mesh in np.unique(of)]
     with np.errstate(over="ignore", invalid="ignore"):
-        for rows in groups:
+        for mesh, rows in by_mesh(scene, instance):
             own = instance[rows]
-            if not len(own):
-                continue
             one = bool((own == own[0]).all())
             matrices = scene.instance_matrices[..., own[:1] if one else own]
-            mesh = scene.meshes[scene.instances[own[0]].mesh]
             corners = mesh.triangles.take(triangle[rows], axis=0)
             for corner in range(3):
                 local = mesh.vertices.take(corners[:, corner], axis=0).T
@@ -181,11 +181,19 @@ def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
     return out
 
 
+def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Index | slice]]:
+    """Yield each mesh among instances (n,), which are no planes, with its rows of them."""
+    of = scene.instance_meshes[instance]
+    if len(of) and (of == of[0]).all():
+        yield scene.meshes[of[0]], slice(None)
+        return
+    for mesh in np.unique(of):
+        yield scene.meshes[mesh], np.flatnonzero(of == mesh)
+
+
 def reaches(scene: Scene) -> Floats:
     """Bound the sums of |terms| of world_from_object . vertex, metres, (3, instances)."""
-    if not scene.instances:
-        return np.zeros((3, 0))
-    reach = np.abs([m.bounds for m in scene.meshes]).max(axis=1)[scene.instance_meshes].T
+    reach = np.abs(scene.instance_bounds).max(axis=0)
     m = scene.instance_matrices
     return (np.abs(m[:3, :3]) * reach).sum(axis=1) + np.abs(m[:3, 3])
 
@@ -196,11 +204,7 @@ def depth_ranges(scene: Scene) -> Floats:
     No vertex lies beyond, whatever has been rounded; NaN where a number overflows.
     """
     m, camera = scene.instance_matrices, scene.camera
-    if not scene.instances:
-        return np.zeros((2, 0))
-    low, high = np.array([mesh.bounds for mesh in scene.meshes])[scene.instance_meshes].T.swapaxes(
-        0, 1
-    )
+    low, high = scene.instance_bounds
     axis = dual_axes(camera)[2][:, None]
     with np.errstate(over="ignore", invalid="ignore"):
         row = (axis[..., None] * m[:3, :3]).sum(axis=0)  # of an axis of the object, by its length

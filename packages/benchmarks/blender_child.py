@@ -24,7 +24,12 @@ _opened: dict[str, Any] = {}  # the scene, the object with its mesh, and what wa
 
 def suzanne(path: Path) -> None:
     """Write Blender's monkey, its faces cut in 9 and then smoothly in 4, 3 times, to a .npz."""
-    vertices, triangles = arrays(_monkey())
+    mesh = _monkey()
+    mesh.calc_loop_triangles()
+    vertices = np.empty((len(mesh.vertices), 3), np.float32)
+    triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
+    mesh.vertices.foreach_get("co", vertices.ravel())
+    mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
     np.savez(path, vertices=vertices, triangles=triangles)
 
 
@@ -48,16 +53,6 @@ def _monkey() -> Any:
     modifier = obj.modifiers.new("Subdivision", "SUBSURF")
     modifier.levels = 3
     return bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
-
-
-def arrays(mesh: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Return the vertices, (v, 3) float32, and the triangles, (n, 3) int32, of a Blender mesh."""
-    mesh.calc_loop_triangles()
-    vertices = np.empty((len(mesh.vertices), 3), np.float32)
-    triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
-    mesh.vertices.foreach_get("co", vertices.ravel())
-    mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
-    return vertices, triangles
 
 
 def open_scene(wanted: Scene) -> Any:

@@ -7,34 +7,38 @@ there is nothing to draw with, and nobody else notices.
 from __future__ import annotations
 
 import importlib.util
+import os
+import signal
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from importlib import import_module
+from multiprocessing import active_children, get_context
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from reference_tracer.scene import Scene
 
-from .children import Child
 from .peers import MissingPeerError, Timed, missing
 
 ENGINES = "cycles", "workbench"
 
 
 class BlenderPeer:
-    """A Blender that waits to be asked; :meth:`close` ends it."""
+    """A Blender that waits to be asked, and is started at first; :meth:`close` ends it.
+
+    Each question raises a MissingPeerError if there is no bpy, it fails, or the process ends.
+    """
 
     def __init__(self, cache: Path) -> None:
-        """Start nothing yet; `cache` is the folder with Suzanne.
-
-        Raises
-        ------
-        MissingPeerError
-            If there is no bpy.
-        """
-        if importlib.util.find_spec("bpy") is None:
-            raise missing("bpy")
+        """Start nothing yet; `cache` is the folder with Suzanne."""
         self._cache = cache
-        self._child: Child | None = None
+        self._pool: ProcessPoolExecutor | None = None
         self._opened: tuple[Any, ...] = ()
+        self._folder = TemporaryDirectory(prefix="reftrace-bench-", ignore_cleanup_errors=True)
+        # What it prints is not shown, but for the last line, where it ends by itself.
+        self._printed = Path(self._folder.name, "printed.txt")
+        self._printed.touch()
 
     def make_suzanne(self, path: Path) -> None:
         """Write Blender's monkey, subdivided, to a .npz."""
@@ -44,8 +48,9 @@ class BlenderPeer:
         """Build a scene of the benchmark in Blender, in place of the one before."""
         camera = scene.camera
         size = camera.width, camera.height
-        self._opened = scene.meshes[0].name, self._cache, size, camera.projection.name
-        self._ask("open_benchmark", *self._opened)
+        opened = scene.meshes[0].name, self._cache, size, camera.projection.name
+        self._ask("open_benchmark", *opened)
+        self._opened = opened
 
     def bvhtree(self, budget: float) -> Timed:
         """Cast the open scene's rays, or a sample that takes about `budget` seconds."""
@@ -58,24 +63,38 @@ class BlenderPeer:
 
     def close(self) -> None:
         """End it, if it runs."""
-        if self._child:
-            self._child.end()
-        self._child = None
+        if self._pool:
+            for process in active_children():
+                process.kill()
+            self._pool.shutdown()
+        self._pool = None
 
     def _ask(self, name: str, *arguments: Any) -> Any:
-        if self._child is None:
-            self._child = Child()
-            if self._opened and name in ("bvhtree", "render"):  # it ended in between
+        if self._pool is None:
+            if importlib.util.find_spec("bpy") is None:
+                raise missing("bpy")
+            printed = (str(self._printed),)
+            self._pool = ProcessPoolExecutor(1, get_context("spawn"), _begin, printed)
+            if self._opened:  # it ended in between
                 self._ask("open_benchmark", *self._opened)
         try:
-            return self._child.call(do, name, *arguments)
-        except MissingPeerError as error:
-            if not self._child.is_alive:
-                self.close()
-                what = arguments[0] if name == "render" else name
-                said = f"Blender ended without an answer to '{what}' ({error})"
-                raise MissingPeerError(said) from None
-            raise
+            return self._pool.submit(do, name, *arguments).result()
+        except BrokenProcessPool:
+            self.close()
+            what = arguments[0] if name == "render" else name
+            lines = self._printed.read_text("utf-8", "replace").strip().splitlines()
+            said = f"({lines[-1] if lines else 'no message'})"
+            raise MissingPeerError(f"Blender ended without an answer to '{what}' {said}") from None
+        except Exception as error:  # whoever asks is told, and goes on without
+            raise MissingPeerError(f"{type(error).__name__}: {error}") from None
+
+
+def _begin(printed: str) -> None:
+    """Have the process print into a file, and leave Ctrl-C to who started it, and ends it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with open(printed, "ab") as file:
+        for stream in (1, 2):
+            os.dup2(file.fileno(), stream)
 
 
 def do(name: str, *arguments: Any) -> Any:

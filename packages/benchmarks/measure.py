@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable
 from contextlib import closing
 from functools import partial
-from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +24,7 @@ from .field import Field
 from .meshes import MissingMeshError
 from .plan import Case, Plan
 from .results import Bench
-from .rounds import Runner, in_rounds
+from .rounds import Runner, Runners, in_rounds
 from .scenes import build, mesh_of
 
 CERTIFIED, PLAIN = Settings(Method.CERTIFIED), Settings(Method.MOLLER_TRUMBORE)
@@ -62,19 +61,17 @@ def measure(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
     end = time.perf_counter() + plan.seconds
     with one_core(), closing(Field(plan.slow, bench, cache)) as field:
         _warm_up(cache)
-        for name, group in groupby(plan.cases, key=lambda case: case.scene):
-            cases = list(group)
-            size = sum(case.cost for case in cases)
+        for case in plan.cases:
             try:
-                mesh = field.mesh(name)
+                mesh = field.mesh(case.scene)
             except MissingMeshError as error:
-                bench.note(f"{name} is left out: {error}")
+                bench.note(f"{case.scene} is left out: {error}")
             else:
                 # So that slow ones do not make the whole late.
-                share = max(0.0, end - time.perf_counter()) / (total - done)
-                work = _measure_scene(plan, share, bench, field, mesh, cases)
-                yield from scaled(work, done / total, size / total)
-            done += size
+                share = max(0.0, end - time.perf_counter()) * case.cost / (total - done)
+                work = _measure_case(plan, min(plan.budget, share), bench, field, mesh, case)
+                yield from scaled(work, done / total, case.cost / total)
+            done += case.cost
     yield Progress(1.0)
 
 
@@ -86,28 +83,23 @@ def _warm_up(cache: Path) -> None:
             work(build(mesh, 16, 9, PERSPECTIVE.name), settings)
 
 
-def _measure_scene(
-    plan: Plan, share: float, bench: Bench, field: Field, mesh: Mesh, cases: list[Case]
+def _measure_case(
+    plan: Plan, budget: float, bench: Bench, field: Field, mesh: Mesh, case: Case
 ) -> Work[None]:
-    """Measure the cases of a scene; `share` is the seconds for each unit of their cost."""
-    size, start = 1 / sum(case.cost for case in cases), 0.0
-    for case in cases:
-        results: dict[str, Any] = {}
-        ours = _ours(mesh, case, results)
-        for what in (TRACE,) if plan.quick else (TRACE, RENDER):
-            runner = ours[f"{PLAIN.method.value}, {what}"]
-            if takes_too_long(runner.run):
-                runner.failed = f"it takes more than {LONGEST:g} s: not timed"
-        peers = field.runners(build(mesh, case.width, case.height, case.camera), case)
-        budget = min(plan.budget, share * case.cost)
-        work = in_rounds([*ours.values(), *peers.values()], plan.repeats, budget)
-        yield from scaled(work, start, size * case.cost)
-        start += size * case.cost
-        field.compare(peers, results[PICTURE])
-        bench.keep_rounds(case.title, ours | peers)
+    """Measure a case, its rounds within a budget in seconds."""
+    results: dict[str, Any] = {}
+    ours = _ours(mesh, case, results)
+    for what in (TRACE,) if plan.quick else (TRACE, RENDER):
+        runner = ours[f"{PLAIN.method.value}, {what}"]
+        if takes_too_long(runner.run):
+            runner.failed = f"it takes more than {LONGEST:g} s: not timed"
+    peers = field.runners(build(mesh, case.width, case.height, case.camera), case)
+    yield from in_rounds([*ours.values(), *peers.values()], plan.repeats, budget)
+    field.compare(peers, results[PICTURE])
+    bench.keep_rounds(case.title, ours | peers)
 
 
-def _ours(mesh: Mesh, case: Case, results: dict[str, Any]) -> dict[str, Runner]:
+def _ours(mesh: Mesh, case: Case, results: dict[str, Any]) -> Runners:
     """Return who is timed on our own side; what certified has found last is in the results."""
 
     def timed(what: str, settings: Settings) -> float:

@@ -23,16 +23,14 @@ class MissingMeshError(RuntimeError):
 
 def cube() -> Triangles:
     """Return the cube from -1 to 1, 12 triangles."""
-    return _of(trimesh.creation.box((2, 2, 2)))
+    box = trimesh.creation.box((2, 2, 2))
+    return _arrays(box.vertices, box.faces)
 
 
 def icosphere(level: int) -> Triangles:
     """Return a unit sphere of 20 * 4 ** `level` triangles that share their vertices."""
-    return _of(trimesh.creation.icosphere(level))
-
-
-def _of(mesh: trimesh.Trimesh) -> Triangles:
-    return mesh.vertices.astype(np.float32), _int32(mesh.faces)
+    sphere = trimesh.creation.icosphere(level)
+    return _arrays(sphere.vertices, sphere.faces)
 
 
 def nested_spheres(count: int, level: int) -> Triangles:
@@ -40,10 +38,7 @@ def nested_spheres(count: int, level: int) -> Triangles:
     vertices, triangles = icosphere(level)
     radii = np.linspace(0.2, 1.0, count, dtype=np.float32)
     starts = len(vertices) * np.arange(count)
-    return (
-        (radii[:, None, None] * vertices).reshape(-1, 3),
-        _int32((starts[:, None, None] + triangles).reshape(-1, 3)),
-    )
+    return _arrays(radii[:, None, None] * vertices, starts[:, None, None] + triangles)
 
 
 def heightfield(cells: int) -> Triangles:
@@ -55,9 +50,8 @@ def heightfield(cells: int) -> Triangles:
         for k in (1, 2, 4, 8)
     )
     corner = np.arange(cells * (cells + 1)).reshape(cells, cells + 1)[:, :-1].ravel()
-    a, b, c, d = corner, corner + 1, corner + cells + 2, corner + cells + 1
-    triangles = np.stack(((a, b, c), (a, c, d))).transpose(2, 0, 1).reshape(-1, 3)
-    return np.stack((x, y, z), axis=-1).reshape(-1, 3).astype(np.float32), _int32(triangles)
+    around = corner, corner + 1, corner + cells + 2, corner + cells + 1
+    return _arrays(np.stack((x, y, z), axis=-1), _halves(*around))
 
 
 def soup(count: int, size: float) -> Triangles:
@@ -75,9 +69,8 @@ def foliage(count: int, size: float) -> Triangles:
     across = _unit(across) * (size / 2)
     along = _unit(np.cross(across, other)) * (size / 2)
     corners = [middle + i * across + j * along for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    a, b, c, d = 4 * np.arange(count) + np.arange(4)[:, None]
-    triangles = np.stack(((a, b, c), (a, c, d))).transpose(2, 0, 1).reshape(-1, 3)
-    return np.stack(corners, axis=1).reshape(-1, 3).astype(np.float32), _int32(triangles)
+    around = 4 * np.arange(count) + np.arange(4)[:, None]
+    return _arrays(np.stack(corners, axis=1), _halves(*around))
 
 
 def large_triangles(count: int) -> Triangles:
@@ -109,18 +102,24 @@ def stored(path: Path) -> Triangles:
             f"there is no '{path}': Blender makes it: pip install \"reference_tracer[blender]\""
         )
     with np.load(path, allow_pickle=False) as data:
-        return data["vertices"].astype(np.float32), data["triangles"].astype(np.int32)
+        return _arrays(data["vertices"], data["triangles"])
 
 
 def _loose(corners: NDArray[np.float64]) -> Triangles:
-    return corners.reshape(-1, 3).astype(np.float32), _int32(
-        np.arange(3 * len(corners)).reshape(-1, 3)
+    return _arrays(corners, np.arange(3 * len(corners)))
+
+
+def _halves(a: NDArray, b: NDArray, c: NDArray, d: NDArray) -> NDArray:
+    """Return the triangles of squares, by their corners (n,), in pairs."""
+    return np.stack(((a, b, c), (a, c, d))).transpose(2, 0, 1)
+
+
+def _arrays(vertices: NDArray, triangles: NDArray) -> Triangles:
+    return (
+        vertices.astype(np.float32).reshape(-1, 3),
+        triangles.astype(np.int32).reshape(-1, 3),
     )
 
 
 def _unit(v: NDArray[np.float64]) -> NDArray[np.float64]:
     return v / np.linalg.norm(v, axis=-1, keepdims=True)
-
-
-def _int32(values: object) -> NDArray[np.int32]:
-    return np.asarray(values, dtype=np.int32)

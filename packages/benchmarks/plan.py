@@ -106,8 +106,7 @@ def _default(quick: bool) -> list[str]:
 
 
 def _quick(name: str) -> list[Case]:
-    peers = {"bvhtree"} if name in QUICK_CYCLES else set()
-    peers |= {"cycles", "workbench"} if name in QUICK_CYCLES else set()
+    peers = set(BLENDER) if name in QUICK_CYCLES else set()
     peers |= {"rtree"} if SUBJECTS[name].triangles <= 10_000 else set()
     found = [Case(name, *SMALL, PERSPECTIVE.name, frozenset(peers))]
     if SUBJECTS[name].group == scenes.EVERYDAY:

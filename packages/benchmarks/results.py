@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from types import MappingProxyType
 
 from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.report import folders
 
-from .rounds import Runner
+from .rounds import Facts, Runners
 
 try:
     from pyperf import Benchmark, BenchmarkSuite, Run
@@ -40,16 +39,16 @@ class Bench:
         what: str,
         who: str,
         values: Iterable[float],
-        facts: Mapping[str, str | float] = MappingProxyType({}),
+        facts: Facts | None = None,
     ) -> None:
         """Keep values, one a round, and what else is known of them; a clock may see no time."""
         if seen := [value for value in values if value > 0]:
-            metadata = {"name": f"{what}: {who}", **machine(), **facts}
+            metadata = {"name": f"{what}: {who}", **machine(), **(facts or {})}
             self.found[what, who] = Benchmark(
                 [Run(seen, metadata=metadata, collect_metadata=False)]
             )
 
-    def keep_rounds(self, what: str, runners: Mapping[str, Runner]) -> None:
+    def keep_rounds(self, what: str, runners: Runners) -> None:
         """Keep what runners have taken, by their names; say who could not run."""
         for who, runner in runners.items():
             if runner.failed:
@@ -69,9 +68,9 @@ class Bench:
 
 
 @cache
-def machine() -> dict[str, str | float]:
+def machine() -> Facts:
     """Return the facts of this machine that times depend on, as pyperf finds them."""
-    facts: dict[str, str | float] = Run([1.0]).get_metadata()
+    facts: Facts = Run([1.0]).get_metadata()
     return facts | {f"version_{name}": _version(name) for name in LIBRARIES}
 
 

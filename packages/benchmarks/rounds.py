@@ -10,6 +10,8 @@ from reference_tracer.tracer.progress import Progress, Work
 
 from .peers import MissingPeerError
 
+Facts = dict[str, str | float]  # what is known of a time, besides
+
 
 @dataclass
 class Runner:
@@ -27,13 +29,16 @@ class Runner:
     allowed: float | None = None
     seconds: list[float] = field(default_factory=list)  # of each round, for a whole picture
     spent: list[float] = field(default_factory=list)  # seconds that really went by
-    facts: dict[str, str | float] = field(default_factory=dict)  # what else is known of it
+    facts: Facts = field(default_factory=dict)  # what else is known of it
     failed: str = ""  # why it cannot run
 
     def takes_part(self) -> bool:
         """Whether it can run, and may once more."""
         next_time = sum(self.spent) + max(self.spent, default=0.0)
         return not self.failed and (self.allowed is None or next_time <= self.allowed)
+
+
+Runners = dict[str, Runner]  # by who is timed
 
 
 def in_rounds(runners: list[Runner], repeats: int, budget: float) -> Work[None]:

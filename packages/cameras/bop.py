@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reference_tracer.camera_files import frame
-from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.convention import Convention, Files, Size, Source, View
 from reference_tracer.camera_files.features import ASPECT, SHIFT
 from reference_tracer.camera_files.json_files import (
     CENTERS_KEY,
@@ -36,7 +36,10 @@ def _write(views: Sequence[View], centers: str) -> Files:
     if len(sizes) > 1:
         raise SceneError("BOP has one size for all pictures of a dataset")
     offset = offset_of(centers)
-    scene = {str(_number(view, n)): _body(view, offset) for n, view in enumerate(views)}
+    scene = {}
+    for place, view in enumerate(views):
+        number = place if view.frame is None else view.frame
+        scene[str(number)] = _body(view, offset)
     fx, fy, cx, cy = frame.intrinsics(views[0].camera)
     ((width, height),) = sizes
     camera = {
@@ -50,10 +53,6 @@ def _write(views: Sequence[View], centers: str) -> Files:
         CENTERS_KEY: centers,
     }
     return {CAMERA: dumped(camera), SCENE: dumped(scene)}
-
-
-def _number(view: View, place: int) -> int:
-    return place if view.frame is None else view.frame
 
 
 def _body(view: View, offset: float) -> Content:
@@ -74,11 +73,8 @@ def _file(source: Source) -> Source:
 
 def _is_of(source: Source) -> bool:
     own = _file(source)
-    content = own.json if own.path.is_file() else None
-    if not isinstance(content, dict) or not content:
-        return False
-    first = next(iter(content.values()))
-    return isinstance(first, dict) and "cam_K" in first
+    first = [*own.object.values()][:1] if own.path.is_file() else []
+    return any(isinstance(body, dict) and "cam_K" in body for body in first)
 
 
 def _read(source: Source) -> list[View]:
@@ -86,16 +82,15 @@ def _read(source: Source) -> list[View]:
     camera: Content = {}
     for folder in own.path.resolve().parents[:_NEXT]:
         if (folder / CAMERA).is_file():
-            found = Source(folder / CAMERA).json
-            camera = found if isinstance(found, dict) else {}
+            camera = Source(folder / CAMERA).object
             break
-    size = own.whole_size(camera, ("width", "height"), f"{CAMERA}: ")
+    size = own.whole_size(camera, f"{CAMERA}: ")
     center = first_center(camera)
-    every: Content = own.json
+    every = own.object
     return [_view(number, part(every, number, "", dict), center, size) for number in every]
 
 
-def _view(number: str, body: Content, center: float, size: tuple[int, int]) -> View:
+def _view(number: str, body: Content, center: float, size: Size) -> View:
     where = f"image {number}: "
     if "cam_R_w2c" not in body:
         raise SceneError(
@@ -105,15 +100,14 @@ def _view(number: str, body: Content, center: float, size: tuple[int, int]) -> V
     rotation = flat(body, "cam_R_w2c", where, 9).reshape(3, 3)
     pose = frame.pose(rotation, flat(body, "cam_t_w2c", where, 3) / _MILLIMETRES)
     name = f"{int(number):06d}.png" if number.isdigit() else number
-    camera = frame.pinhole(k, pose, size, None, name, center=center)
-    return View(camera, name, is_clipped=False)
+    return frame.pinhole(k, pose, size, name, center=center)
 
 
 BOP = Convention(
     "bop",
     "BOP",
     f"{SCENE} and {CAMERA} in a folder",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     True,
     _write,
     _is_of,

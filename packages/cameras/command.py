@@ -153,22 +153,18 @@ def _checked(given: Namespace, at: _At) -> int:
     notes = [_notes(v, one.view) for v, one in zip(views, scene, strict=True)]
     for line in found.lines():
         show(f"{given.check.name if len(views) > 1 else names[0]}: {line}")
-    for each in (wrong, notes):
-        for line, of in _shared(names, each).items():
-            show(f"{of}: {line}")
+    show(*_shared(names, wrong), *_shared(names, notes))
     return AGREE if found.agrees and not any(wrong) else DIFFERENCES
 
 
-def _shared(names: Sequence[str], lines: Sequence[Sequence[str]]) -> dict[str, str]:
-    """Return each line once, with the name of the one camera that has it, or how many have it."""
+def _shared(names: Sequence[str], lines: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield each line once, with the name of the one camera that has it, or how many have it."""
     have: dict[str, list[str]] = {}
     for name, own in zip(names, lines, strict=True):
         for line in own:
             have.setdefault(line, []).append(name)
-    return {
-        line: of[0] if len(of) == 1 else f"{len(of)} of {len(names)} cameras"
-        for line, of in have.items()
-    }
+    for line, of in have.items():
+        yield f"{of[0] if len(of) == 1 else f'{len(of)} of {len(names)} cameras'}: {line}"
 
 
 def _of_size(camera: Camera, like: Camera) -> Camera:
@@ -186,13 +182,10 @@ def _other_than_points(view: View, own: Camera) -> list[str]:
             f"differ: its picture has {other.width} x {other.height} pixels, the scene's "
             f"{own.width} x {own.height}, in which distances are"
         )
-    ends = (other.clip_start, other.clip_end), (own.clip_start, own.clip_end)
-    if view.is_clipped and not np.allclose(*ends, rtol=1e-5, atol=0):
-        out.append(
-            "differ: its clip range is {:.6g} to {:.6g} m, the scene's {:.6g} to {:.6g} m".format(
-                *ends[0], *ends[1]
-            )
-        )
+    ends = other.clip_start, other.clip_end, own.clip_start, own.clip_end
+    if view.is_clipped and not np.allclose(ends[:2], ends[2:], rtol=1e-5, atol=0):
+        says = "differ: its clip range is {:.6g} to {:.6g} m, the scene's {:.6g} to {:.6g} m"
+        out.append(says.format(*ends))
     return out
 
 

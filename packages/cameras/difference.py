@@ -71,12 +71,12 @@ class CameraDifference:
         return out
 
 
+@np.errstate(invalid="ignore", divide="ignore", over="ignore")  # of points behind a camera
 def difference(own: Camera, other: Camera) -> CameraDifference:
     """Compare another camera with the scene's own, and find out what makes one of the other."""
     return explained(measured(own, other), own, other)
 
 
-@np.errstate(invalid="ignore", divide="ignore", over="ignore")  # of points behind a camera
 def measured(own: Camera, other: Camera) -> CameraDifference:
     """Measure how far another camera is from the scene's own; both pictures have one size.
 
@@ -88,17 +88,16 @@ def measured(own: Camera, other: Camera) -> CameraDifference:
     points = known_points(own)
     x, y, depth = film_of(own, points)
     far = apart((x, y, depth), film_of(other, points))
-    worst = int(np.argmax(far))
+    worst = np.argmax(far)
     return CameraDifference(
-        float(far[worst]),
+        far[worst],
         float(np.median(far)),
-        (float(x[worst]), float(y[worst])),
-        float(depth[worst]),
+        (x[worst], y[worst]),
+        depth[worst],
         max(CLOSE, certify(own, points, np.stack((x, y))).allowed),
     )
 
 
-@np.errstate(invalid="ignore", divide="ignore", over="ignore")
 def explained(found: CameraDifference, own: Camera, other: Camera) -> CameraDifference:
     """Return what was measured of two cameras with what explains it, if they differ."""
     if found.agrees:
@@ -121,8 +120,7 @@ def _unit(own: Camera, other: Camera) -> float | None:
 
 def apart(first: Film, second: Film) -> Floats:
     """Return how far apart points are on two films, (n,) pixels."""
-    with np.errstate(invalid="ignore", over="ignore"):
-        far = np.hypot(first[0] - second[0], first[1] - second[1])
+    far = np.hypot(first[0] - second[0], first[1] - second[1])
     return np.where(np.isnan(far), np.inf, far)
 
 

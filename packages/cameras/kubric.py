@@ -13,45 +13,40 @@ from __future__ import annotations
 import numpy as np
 from reference_tracer.camera_files import frame
 from reference_tracer.camera_files.colmap import rotation
-from reference_tracer.camera_files.convention import Convention, Source, View
+from reference_tracer.camera_files.convention import Convention, Size, Source, View
 from reference_tracer.files.checked_json import Content, numbers, part
-from reference_tracer.scene import SceneError
 
 _AXES = np.diag((1.0, -1.0, -1.0))  # takes K of Blender's camera space to that of OpenCV's
 _UNIT = 1.0  # principal points up to here are in widths and heights, beyond in pixels
 
 
 def _is_of(source: Source) -> bool:
-    content = source.json
-    own = content.get("camera") if isinstance(content, dict) else None
+    own = source.object.get("camera")
     return isinstance(own, dict) and own.keys() >= {"K", "positions", "quaternions"}
 
 
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     own: Content = part(content, "camera", "", dict)
     metadata: Content = part({"metadata": {}, **content}, "metadata", "", dict)
     width, height = _size(metadata, source)
     k = numbers(own, "K", "camera.", (3, 3)) @ _AXES
     if np.abs(k[:2, 2]).max() <= _UNIT:
         k = k * ((width,), (height,), (1,))
-    places = numbers(own, "positions", "camera.", None)
-    turns = numbers(own, "quaternions", "camera.", (len(places), 4))
-    if places.shape != (len(turns), 3):
-        raise SceneError("camera.positions must be N x 3 finite numbers")
+    count = len(part(own, "positions", "camera.", list))
+    places = numbers(own, "positions", "camera.", (count, 3))
+    turns = numbers(own, "quaternions", "camera.", (count, 4))
     found = []
     for number, (place, turn) in enumerate(zip(places, turns, strict=True)):
         pose = frame.inverse(frame.pose(rotation(turn), place))
         name = f"rgba_{number:05d}.png"
-        camera = frame.pinhole(k, pose, (width, height), None, name, np.eye(4))
-        found.append(View(camera, name, is_clipped=False))
+        found.append(frame.pinhole(k, pose, (width, height), name, np.eye(4)))
     return found
 
 
-def _size(metadata: Content, source: Source) -> tuple[int, int]:
+def _size(metadata: Content, source: Source) -> Size:
     if "resolution" not in metadata:
-        width, height = source.whole_size({}, ("width", "height"))
-        return int(width), int(height)
+        return source.whole_size({})
     width, height = numbers(metadata, "resolution", "metadata.", (2,))
     return int(width), int(height)
 
@@ -60,7 +55,7 @@ KUBRIC = Convention(
     "kubric",
     "Kubric",
     "metadata.json, which is read alone",
-    frozenset(),
+    (),
     False,
     None,
     _is_of,

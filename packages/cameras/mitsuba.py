@@ -20,7 +20,7 @@ Mitsuba's world has no axis that is up: the one that is written is Blender's, in
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from xml.etree import ElementTree
 
 import numpy as np
@@ -34,6 +34,7 @@ from reference_tracer.scene import SceneError
 _KINDS = {"perspective": PERSPECTIVE, "orthographic": ORTHOGRAPHIC}
 _CLIP = {"near_clip": 1e-2, "far_clip": 1e4}  # with what Mitsuba takes where a file says none
 _FILM = "hdrfilm"
+_SPACES = re.compile(r"[\s,]+")
 
 
 def _write(views: Sequence[View], centers: str) -> Files:
@@ -77,10 +78,6 @@ def _sensor(view: View) -> list[str]:
     ]
 
 
-def _is_of(source: Source) -> bool:
-    return "<sensor" in source.text
-
-
 def _read(source: Source) -> list[View]:
     text = source.text
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
@@ -90,36 +87,27 @@ def _read(source: Source) -> list[View]:
     except ElementTree.ParseError as error:
         raise SceneError(f"its XML cannot be read ({error})") from error
     defaults = {d.get("name", ""): d.get("value", "") for d in root.iter("default")}
-    return [_view(sensor, defaults, source) for sensor in root.iter("sensor")]
+    for element in root.iter():
+        for key, text in element.attrib.items():
+            for name, value in sorted(defaults.items(), reverse=True):
+                text = text.replace(f"${name}", value)
+            element.set(key, text)
+    return [_view(sensor) for sensor in root.iter("sensor")]
 
 
-class _Values:
-    """The values of an element's children by their names, with the file's defaults put in."""
+def _values(elements: Iterable[ElementTree.Element]) -> dict[str, str]:
+    """Return the values of elements by their names."""
+    return {element.get("name", ""): element.get("value", "") for element in elements}
 
-    def __init__(self, element: ElementTree.Element, defaults: dict[str, str]) -> None:
-        self.defaults = defaults
-        self._own = {child.get("name", ""): child for child in element}
 
-    def text(self, name: str, default: str) -> str:
-        """Return a text."""
-        found = self._own.get(name)
-        return default if found is None else self.filled(found.get("value", ""))
-
-    def filled(self, text: str) -> str:
-        """Return a text with `$name` as the file's defaults have it."""
-        for name, value in sorted(self.defaults.items(), reverse=True):
-            text = text.replace(f"${name}", value)
-        return text
-
-    def number(self, name: str, default: float | None = None) -> float:
-        """Return a number, which must be there if it has no default."""
-        text = self.text(name, "" if default is None else repr(default))
-        return float(_floats(text, 1, name)[0])
+def _number(own: Mapping[str, str], name: str, default: float | str = "") -> float:
+    """Return a number, which must be there if it has no default."""
+    return float(_floats(own.get(name, str(default)), 1, name)[0])
 
 
 def _floats(text: str, count: int, what: str) -> Floats:
     try:
-        values = np.array([float(word) for word in re.split(r"[\s,]+", text.strip())])
+        values = np.array([float(word) for word in _SPACES.split(text.strip())])
     except ValueError:
         values = np.zeros(0)
     if len(values) != count or not np.isfinite(values).all():
@@ -127,75 +115,63 @@ def _floats(text: str, count: int, what: str) -> Floats:
     return values
 
 
-def _view(sensor: ElementTree.Element, defaults: dict[str, str], source: Source) -> View:
+def _view(sensor: ElementTree.Element) -> View:
     kind, name = sensor.get("type", ""), sensor.get("id", "")
     if kind not in _KINDS:
         raise SceneError(f"its sensor is of the type '{kind}', none of {', '.join(_KINDS)}")
-    own = _Values(sensor, defaults)
-    film = sensor.find("film")
-    pixels = _Values(film, defaults) if film is not None else _Values(sensor, {})
+    own, pixels = _values(sensor), _values(sensor.iterfind("film/*"))
     # What Mitsuba takes where the file says none.
-    whole = tuple(pixels.number(key, n) for key, n in (("width", 768), ("height", 576)))
-    left, top = (pixels.number(f"crop_offset_{axis}", 0) for axis in "xy")
-    crop = (pixels.number("crop_width", whole[0]), pixels.number("crop_height", whole[1]))
-    if not all(n == int(n) and n >= 1 for n in (*whole, *crop)):
+    width, height = _number(pixels, "width", 768), _number(pixels, "height", 576)
+    left, top = (_number(pixels, f"crop_offset_{axis}", 0) for axis in "xy")
+    crop = _number(pixels, "crop_width", width), _number(pixels, "crop_height", height)
+    if not all(n == int(n) and n >= 1 for n in (width, height, *crop)):
         raise SceneError("its film's width and height must be integers of at least 1")
-    width, height = whole
     world: Floats = np.eye(4)
     for child in sensor:
         if child.tag == "animation":
             raise SceneError("its to_world is animated, which is not read: write one frame's")
         if child.tag == "transform" and child.get("name") == "to_world":
-            world = _to_world(child, own)
+            for part in child:  # the first is applied first
+                world = _part(part.tag, part.attrib) @ world
     if kind == "orthographic":
         f = cx = width / 2
         cy = height / 2
     else:
         f = width / 2 / _half_tangent(own, width, height)
-        cx = width * (0.5 - own.number("principal_point_offset_x", 0))
-        cy = height * (0.5 - own.number("principal_point_offset_y", 0))
+        cx = width * (0.5 - _number(own, "principal_point_offset_x", 0))
+        cy = height * (0.5 - _number(own, "principal_point_offset_y", 0))
     size = int(crop[0]), int(crop[1])
-    near, far = (own.number(key, default) for key, default in _CLIP.items())
+    near, far = (_number(own, key, default) for key, default in _CLIP.items())
     k = frame.matrix_of(f, f, cx - left, cy - top)
     pose = frame.inverse(world)
-    camera = frame.pinhole(k, pose, size, (near, far), name, frame.LEFT_UP, _KINDS[kind])
-    return View(camera, name)
+    return frame.pinhole(k, pose, size, name, frame.LEFT_UP, _KINDS[kind], clip=(near, far))
 
 
-def _half_tangent(own: _Values, width: float, height: float) -> float:
+def _half_tangent(own: Mapping[str, str], width: float, height: float) -> float:
     """Return the tangent of half the horizontal angle of view, as `parse_fov` has it."""
     aspect = width / height
-    if own.text("fov", ""):
-        axis = own.text("fov_axis", "x")
-        fov = own.number("fov")
+    if own.get("fov"):
+        axis = own.get("fov_axis", "x")
+        fov = _number(own, "fov")
         if not 0 < fov < 180:
             raise SceneError(f"its fov is {fov}, which must be between 0 and 180 degrees")
-        half = float(np.tan(np.radians(fov) / 2))
+        half = np.tan(np.radians(fov) / 2)
     else:  # of a film of 36 x 24 mm, along its diagonal
         axis = "diagonal"
-        length = own.text("focal_length", "50mm").removesuffix("mm")
-        half = float(np.hypot(36, 24)) / 2 / float(_floats(length, 1, "focal_length")[0])
+        length = own.get("focal_length", "50mm").removesuffix("mm")
+        half = np.hypot(36, 24) / 2 / _floats(length, 1, "focal_length")[0]
     if axis == "smaller":
         axis = "y" if aspect > 1 else "x"
     elif axis == "larger":
         axis = "x" if aspect > 1 else "y"
-    factors = {"x": 1.0, "y": aspect, "diagonal": aspect / float(np.hypot(aspect, 1))}
+    factors = {"x": 1.0, "y": aspect, "diagonal": aspect / np.hypot(aspect, 1)}
     if axis not in factors:
         raise SceneError(f"its fov_axis is '{axis}', none of {', '.join(factors)}, smaller, larger")
     return half * factors[axis]
 
 
-def _to_world(transform: ElementTree.Element, own: _Values) -> Floats:
-    """Return the matrix (4, 4) of a transform, whatever its parts: the first is applied first."""
-    matrix = np.eye(4)
-    for part in transform:
-        given = {key: own.filled(text) for key, text in part.attrib.items()}
-        matrix = _part(part.tag, given) @ matrix
-    return matrix
-
-
-def _part(tag: str, given: dict[str, str]) -> Floats:
-    out = np.eye(4)
+def _part(tag: str, given: Mapping[str, str]) -> Floats:
+    """Return the matrix (4, 4) of a part of a transform."""
     if tag == "matrix":
         return _floats(given.get("value", ""), 16, "matrix").reshape(4, 4)
     if tag in ("look_at", "lookat"):
@@ -203,34 +179,30 @@ def _part(tag: str, given: dict[str, str]) -> Floats:
         forward = (target - eye) / np.linalg.norm(target - eye)
         left = np.cross(up, forward)
         left = left / np.linalg.norm(left)
-        out[:3] = np.stack((left, np.cross(forward, left), forward, eye), axis=1)
-        return out
-    fill = 1.0 if tag == "scale" else 0.0
+        return frame.pose(np.stack((left, np.cross(forward, left), forward), axis=1), eye)
     if "value" in given:
-        values = np.array(re.split(r"[\s,]+", given["value"].strip()), np.float64)
-        xyz = np.broadcast_to(values, 3)
+        words = _SPACES.split(given["value"].strip())
     else:
-        xyz = np.array([float(given.get(axis, fill)) for axis in "xyz"])
+        words = [given.get(axis, "1" if tag == "scale" else "0") for axis in "xyz"]
+    xyz = np.broadcast_to(np.array(words, np.float64), 3)
     if tag == "scale":
-        out[:3, :3] = np.diag(xyz)
-    elif tag == "translate":
-        out[:3, 3] = xyz
-    elif tag == "rotate":
+        return np.diag((*xyz, 1.0))
+    if tag == "translate":
+        return frame.pose(np.eye(3), xyz)
+    if tag == "rotate":
         from trimesh.transformations import rotation_matrix  # late: other files need no trimesh
 
-        out = rotation_matrix(np.radians(float(given.get("angle", 0))), xyz)
-    else:
-        raise SceneError(f"its to_world has '{tag}', which is not read")
-    return out
+        return rotation_matrix(np.radians(float(given.get("angle", 0))), xyz)
+    raise SceneError(f"its to_world has '{tag}', which is not read")
 
 
 MITSUBA = Convention(
     "mitsuba",
     "Mitsuba 3",
     "sensors.xml",
-    frozenset((SHIFT, PARALLEL)),
+    (SHIFT, PARALLEL),
     False,
     _write,
-    _is_of,
+    lambda source: "<sensor" in source.text,
     _read,
 )

@@ -8,23 +8,18 @@ picture's size nor where a pixel's centre is: (0.5, 0.5) is read and written.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from reference_tracer.arrays import Floats
 from reference_tracer.camera_files import frame
-from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.convention import Convention, Source, View
 from reference_tracer.camera_files.features import ASPECT, SHIFT
 from reference_tracer.scene import Camera, SceneError
 
 ENDING = "_cam.txt"
 _EXTRINSIC, _INTRINSIC = "extrinsic", "intrinsic"  # words before 16 and 9 numbers
 _STEPS = 192  # between the least depth and the largest, as in its own examples
-
-
-def _write(views: Sequence[View], centers: str) -> Files:
-    return {f"{Path(view.name).stem}{ENDING}": _text(view.camera) for view in views}
 
 
 def _text(camera: Camera) -> str:
@@ -44,12 +39,7 @@ def _paths(source: Source) -> list[Path]:
 
 
 def _is_of(source: Source) -> bool:
-    paths = _paths(source)
-    return bool(paths) and Source(paths[0]).text.startswith(_EXTRINSIC)
-
-
-def _read(source: Source) -> list[View]:
-    return [_view(path, source) for path in _paths(source)]
+    return any(Source(path).text.startswith(_EXTRINSIC) for path in _paths(source)[:1])
 
 
 def _view(path: Path, source: Source) -> View:
@@ -61,19 +51,18 @@ def _view(path: Path, source: Source) -> View:
         raise SceneError(f"{path.name}: {error}") from None
     if len(pose) != 16 or len(k) != 9:
         raise SceneError(f"{path.name}: it must have 16 numbers of a pose and 9 of K")
-    size = source.whole_size({}, ("width", "height"))
+    size = source.whole_size({})
     name = f"{path.name.removesuffix(ENDING)}.png"
-    camera = frame.pinhole(k.reshape(3, 3), pose.reshape(4, 4), size, None, name)
-    return View(camera, name, is_clipped=False)
+    return frame.pinhole(k.reshape(3, 3), pose.reshape(4, 4), size, name)
 
 
 MVSNET = Convention(
     "mvsnet",
     "MVSNet",
     f"a file {ENDING} for each picture in a folder",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     False,
-    _write,
+    lambda views, _: {f"{Path(v.name).stem}{ENDING}": _text(v.camera) for v in views},
     _is_of,
-    _read,
+    lambda source: [_view(path, source) for path in _paths(source)],
 )

@@ -53,13 +53,8 @@ def _body(view: View, centers: str) -> Content:
     }
 
 
-def _is_of(source: Source) -> bool:
-    content = source.json
-    return isinstance(content, dict) and content.get("class_name") in (_ONE, _MANY)
-
-
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     is_one = content["class_name"] == _ONE
     every = [(content, "")] if is_one else objects(content, "parameters")
     return [_view(body, where, source) for body, where in every]
@@ -69,19 +64,18 @@ def _view(body: Content, where: str, source: Source) -> View:
     lens: Content = part(body, "intrinsic", where, dict)
     k = flat(lens, "intrinsic_matrix", f"{where}intrinsic.", 9).reshape(3, 3).T
     pose = flat(body, "extrinsic", where, 16).reshape(4, 4).T
-    size = source.whole_size(lens, ("width", "height"), f"{where}intrinsic.")
+    size = source.whole_size(lens, f"{where}intrinsic.")
     name = str(body.get("name", ""))
-    camera = frame.pinhole(k, pose, size, None, name, center=first_center(body))
-    return View(camera, name, is_clipped=False)
+    return frame.pinhole(k, pose, size, name, center=first_center(body))
 
 
 OPEN3D = Convention(
     "open3d",
     "Open3D",
     "camera.json",
-    frozenset((SHIFT, ASPECT)),
+    (SHIFT, ASPECT),
     True,
     _write,
-    _is_of,
+    lambda source: source.object.get("class_name") in (_ONE, _MANY),
     _read,
 )

@@ -16,7 +16,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from reference_tracer.arrays import Floats
 from reference_tracer.camera_files import frame
 from reference_tracer.camera_files.convention import Convention, Files, Source, View
 from reference_tracer.camera_files.features import ASPECT, PARALLEL, SHIFT
@@ -47,20 +46,13 @@ def _write(views: Sequence[View], centers: str) -> Files:
     return {"": dumped({"class": kind, "names": names, "arguments": arguments})}
 
 
-def _is_of(source: Source) -> bool:
-    content = source.json
-    return isinstance(content, dict) and content.get("class") in tuple(_CLASSES)
-
-
 def _read(source: Source) -> list[View]:
-    content: Content = source.json
+    content = source.object
     own: Content = part(content, "arguments", "", dict)
     if own.get("K") is not None:
         raise SceneError("arguments.K is not read: write focal_length and principal_point")
-    r = numbers(own, "R", "arguments.", None)
-    if r.ndim != 3 or r.shape[1:] != (3, 3):
-        raise SceneError("arguments.R must be N x 3 x 3 finite numbers")
-    count = len(r)
+    count = len(part(own, "R", "arguments.", list))
+    r = numbers(own, "R", "arguments.", (count, 3, 3))
     t = numbers(own, "T", "arguments.", (count, 3))
     focal, middle, size = (
         numbers(own, key, "arguments.", (count, 2))
@@ -69,22 +61,25 @@ def _read(source: Source) -> list[View]:
     names = content.get("names")
     if not (isinstance(names, list) and len(names) == count):
         names = [""] * count
-    in_ndc = own.get("in_ndc", True)
-    every = zip(r, t, focal, middle, size, map(str, names), strict=True)
+    if not ((size >= 1) & (size == np.floor(size))).all():
+        raise SceneError("arguments.image_size must be integers of at least 1, height first")
+    if own.get("in_ndc", True):
+        half = size.min(axis=1, keepdims=True) / 2
+        focal, middle = half * focal, size[:, ::-1] / 2 - half * middle
     projection = _CLASSES[content["class"]]
     found = []
-    for rotation, place, lens, point, shape, name in every:
-        height, width = shape
-        if not all(n >= 1 and n == int(n) for n in shape):
-            raise SceneError("arguments.image_size must be integers of at least 1, height first")
-        if in_ndc:
-            half = min(shape) / 2
-            lens, point = half * lens, np.array((width, height)) / 2 - half * point
-        pose = frame.pose(rotation.T, place)
-        k: Floats = frame.matrix_of(*map(float, (*lens, *point)))
-        pixels = int(width), int(height)
-        camera = frame.pinhole(k, pose, pixels, None, name, frame.LEFT_UP, projection)
-        found.append(View(camera, name, is_clipped=False))
+    for k, name in enumerate(map(str, names)):
+        height, width = map(int, size[k])
+        found.append(
+            frame.pinhole(
+                frame.matrix_of(*focal[k], *middle[k]),
+                frame.pose(r[k].T, t[k]),
+                (width, height),
+                name,
+                frame.LEFT_UP,
+                projection,
+            )
+        )
     return found
 
 
@@ -92,9 +87,9 @@ PYTORCH3D = Convention(
     "pytorch3d",
     "PyTorch3D",
     "cameras.json",
-    frozenset((SHIFT, ASPECT, PARALLEL)),
+    (SHIFT, ASPECT, PARALLEL),
     False,
     _write,
-    _is_of,
+    lambda source: source.object.get("class") in tuple(_CLASSES),
     _read,
 )

@@ -8,19 +8,13 @@ has it. Pixel (i, j) of its rasteriser has its centre at (i + 0.5, j + 0.5).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from reference_tracer.camera_files import frame
-from reference_tracer.camera_files.convention import Convention, Files, Source, View
+from reference_tracer.camera_files.convention import Convention, Source, View
 from reference_tracer.camera_files.features import ASPECT
 from reference_tracer.camera_files.json_files import dumped, flat
-from reference_tracer.files.checked_json import Content, numbers, objects
+from reference_tracer.files.checked_json import Content, number, numbers, objects
 
 _LIST = "cameras"  # what messages call the list, which has no name in the file
-
-
-def _write(views: Sequence[View], centers: str) -> Files:
-    return {"": dumped([_body(view, number) for number, view in enumerate(views)])}
 
 
 def _body(view: View, number: int) -> Content:
@@ -45,28 +39,23 @@ def _is_of(source: Source) -> bool:
     return isinstance(first, dict) and first.keys() >= {"position", "rotation"}
 
 
-def _read(source: Source) -> list[View]:
-    return [_view(body, where, source) for body, where in objects({_LIST: source.json}, _LIST)]
-
-
 def _view(body: Content, where: str, source: Source) -> View:
-    width, height = source.whole_size(body, ("width", "height"), where)
-    fx, fy = (float(numbers(body, key, where, ())) for key in ("fx", "fy"))
+    width, height = source.whole_size(body, where)
+    fx, fy = (number(body, key, where) for key in ("fx", "fy"))
     k = frame.matrix_of(fx, fy, width / 2, height / 2)
     rotation = numbers(body, "rotation", where, (3, 3))
     pose = frame.pose(rotation, flat(body, "position", where, 3))
     name = str(body.get("img_name", ""))
-    camera = frame.pinhole(k, frame.inverse(pose), (width, height), None, name)
-    return View(camera, name, is_clipped=False)
+    return frame.pinhole(k, frame.inverse(pose), (width, height), name)
 
 
 SPLATTING = Convention(
     "splatting",
     "3D Gaussian splatting",
     "cameras.json",
-    frozenset((ASPECT,)),
+    (ASPECT,),
     False,
-    _write,
+    lambda views, _: {"": dumped([_body(view, n) for n, view in enumerate(views)])},
     _is_of,
-    _read,
+    lambda source: [_view(b, where, source) for b, where in objects({_LIST: source.json}, _LIST)],
 )

@@ -5,7 +5,7 @@ The faults, and their sentences, are those of the diagnosis of pictures.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -18,7 +18,7 @@ from reference_tracer.diagnosis.faults.fitting import Family
 from reference_tracer.diagnosis.faults.lens import LENS_FAULTS
 from reference_tracer.diagnosis.faults.matrices import MATRIX_FAULTS
 from reference_tracer.diagnosis.faults.stand import MOVED, ROLL, TURNED
-from reference_tracer.scene import Camera
+from reference_tracer.scene import Camera, alike
 from reference_tracer.tracer.camera import pixel_size, project
 
 _DIGITS = 6  # of an offset in pixels, so that half a pixel is one
@@ -59,30 +59,32 @@ def last_resort(own: Camera, other: Camera) -> Iterator[Steps]:
     out: list[Step] = []
     camera = own
     for name in _LAST_RESORT:
-        read = {step.fault.name: step for step in fitted(camera, other)}
-        if name not in read:  # of a panorama, or of mirrored axes
+        step = _read_off(camera, other, name)
+        if step is None:  # of a panorama, or of mirrored axes
             return
-        step = _simplest(read, name)
-        if any(abs(v) > _NEGLIGIBLE for v in step.guess.values):
+        if _is_some(step):
             out.append(step)
             camera = step.camera
     if out:
         yield tuple(out)
 
 
-def _simplest(fitted: Mapping[str, Step], name: str) -> Step:
-    """Return the fault of a name; of two focal lengths that are equal, one says as much."""
-    is_one = name == "focal_lengths" and np.ptp([*fitted[name].guess.values]) <= _NEGLIGIBLE
-    return fitted["focal_length" if is_one else name]
-
-
 def focal_step(camera: Camera, other: Camera) -> Step | None:
     """Return the camera with the other one's focal lengths; None if it has them, or cannot."""
+    step = _read_off(camera, other, "focal_lengths")
+    return step if step and _is_some(step) else None
+
+
+def _read_off(camera: Camera, other: Camera, name: str) -> Step | None:
+    """Return the fault of a name; of two focal lengths that are equal, one says as much."""
     read = {step.fault.name: step for step in fitted(camera, other)}
-    if "focal_lengths" not in read:
-        return None
-    step = _simplest(read, "focal_lengths")
-    return step if any(abs(v) > _NEGLIGIBLE for v in step.guess.values) else None
+    step = read.get(name)
+    is_one = step and name == "focal_lengths" and np.ptp(step.guess.values) <= _NEGLIGIBLE
+    return read["focal_length"] if is_one else step
+
+
+def _is_some(step: Step) -> bool:
+    return any(abs(v) > _NEGLIGIBLE for v in step.guess.values)
 
 
 def mistakes(camera: Camera, faults: Sequence[AnyFault] = _MISTAKES) -> Iterator[Step]:
@@ -90,7 +92,8 @@ def mistakes(camera: Camera, faults: Sequence[AnyFault] = _MISTAKES) -> Iterator
     for fault in faults:
         assert isinstance(fault.assume, Ways)
         for option, change in fault.assume.options():
-            if changed := change(camera):
+            changed = change(camera)
+            if changed and not alike(changed, camera):
                 yield Step(fault, option, changed, change)
 
 

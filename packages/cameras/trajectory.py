@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.camera_files.frame import rotation_vector
+from reference_tracer.camera_files.frame import rotation_of, rotation_vector
 from reference_tracer.scene import Camera
 from reference_tracer.tracer.camera import film_of
 
@@ -45,14 +45,13 @@ class Similarity:
         scale: it is 1.
         """
         axes, others = (np.array([c.world_from_camera[:3, :3] for c in cs]) for cs in (own, other))
-        u, _, v = np.linalg.svd(np.einsum("nij,nkj->ik", others, axes))
-        rotation = u @ np.diag((1.0, 1.0, np.linalg.det(u @ v))) @ v
+        rotation = rotation_of(np.einsum("nij,nkj->ik", others, axes))
         places, moved = (np.array([c.origin for c in cs]) for cs in (own, other))
         turned = places @ rotation.T
         spread = turned - turned.mean(axis=0)
-        square = float((spread * spread).sum())
-        along = float((spread * (moved - moved.mean(axis=0))).sum())
-        scale = along / square if square > _ONE_PLACE * float((places * places).sum()) else 1.0
+        square = (spread * spread).sum()
+        along = (spread * (moved - moved.mean(axis=0))).sum()
+        scale = along / square if square > _ONE_PLACE * (places * places).sum() else 1.0
         return cls(rotation, scale, moved.mean(axis=0) - scale * turned.mean(axis=0))
 
     def of(self, points: Floats) -> Floats:
@@ -63,7 +62,7 @@ class Similarity:
         """Return the turn, the scale and the move, as far as they change anything."""
         out = []
         turn = rotation_vector(self.rotation)
-        angle = float(np.linalg.norm(turn))
+        angle = np.linalg.norm(turn)
         if angle > _NEGLIGIBLE:
             out.append(f"turned by {np.degrees(angle):.4g} degrees about {_vector(turn / angle)}")
         if abs(self.scale - 1) > _NEGLIGIBLE:
@@ -94,7 +93,7 @@ class TrajectoryDifference:
     def lines(self) -> list[str]:
         """Return it as sentences: what is common once, and else what the worst one has."""
         largest = [found.largest for found in self.each]
-        worst = int(np.argmax(largest))
+        worst = np.argmax(largest)
         count = len(self.each)
         if self.agrees:
             return [f"{count} cameras agree: points lie at most {largest[worst]:.2g} px apart"]

@@ -45,17 +45,20 @@ def connected(address: str) -> Iterator[Cluster]:
     ClusterError
         If nobody answers, there is no worker, or one is of another version.
     """
-    local, security = re.fullmatch(r"local:(\d+)", address), _security(address)
+    local = re.fullmatch(r"local:(\d+)", address)
+    if local and not 1 <= int(local[1]) <= MOST:
+        raise SceneError(f"--scheduler {address}: N must be from 1 to {MOST} processes")
+    security = None if local else _security(address)
     with _quiet(), _processes(int(local[1])) if local else nullcontext() as own:
         try:
             if not own:
-                asyncio.run(asyncio.wait_for(_answered(address, **security), TIMEOUT))
+                asyncio.run(asyncio.wait_for(_answered(address, security), TIMEOUT))
             client = Client(
                 own or address,
                 timeout=TIMEOUT,
                 set_as_default=False,
                 direct_to_workers=bool(local),  # else there may be no way but the scheduler's
-                **security,
+                security=security,
             )
         except (OSError, RuntimeError, TypeError, ValueError) as error:
             do = "start one (docs/cluster.md says how, safely), or try local:2"
@@ -71,19 +74,15 @@ def connected(address: str) -> Iterator[Cluster]:
             client.close(timeout=TIMEOUT)
 
 
-async def _answered(address: str, security: Security | None = None) -> None:
+async def _answered(address: str, security: Security | None) -> None:
     """Return once a scheduler says that it is one: a `Client` waits for ever for who is silent."""
     arguments = security.get_connection_args("client") if security else {}
     async with rpc(address, connection_args=arguments, timeout=TIMEOUT) as asked:
         await asked.identity()
 
 
-def _security(address: str) -> dict[str, Security]:
-    """Return how the way to an address is encrypted, as Dask is configured; nothing where not."""
-    if count := re.fullmatch(r"local:(\d+)", address):
-        if not 1 <= int(count[1]) <= MOST:
-            raise SceneError(f"--scheduler {address}: N must be from 1 to {MOST} processes")
-        return {}
+def _security(address: str) -> Security | None:
+    """Return how the way to an address is encrypted, as Dask is configured; None where not."""
     try:
         parts = urlsplit(address)
         host, valid = parts.hostname, parts.scheme in ("tcp", "tls") and parts.port
@@ -97,13 +96,13 @@ def _security(address: str) -> dict[str, Security]:
         if None in (security.tls_ca_file, security.tls_client_cert, security.tls_client_key):
             names = "distributed.comm.tls.ca-file, .client.cert and .client.key"
             raise SceneError(f"--scheduler {address} needs certificates: set {names} for Dask")
-        return {"security": security}
+        return security
     with suppress(ValueError):
         host = "localhost" if ipaddress.ip_address(host).is_loopback else host
     if host != "localhost":
         why = "is not on this machine, and whoever reaches a Dask scheduler can run code there"
         raise SceneError(f"--scheduler {address} {why}: use tls:// (docs/cluster.md)")
-    return {}
+    return None
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 from collections import deque
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -40,9 +40,8 @@ def tracer(cluster: Cluster) -> Tracer:
     ) -> Work[TraceBand]:
         # What it counts of the whole picture is said as of any other.
         yield from TRACERS[settings.method](scene, settings, reach, statistics)
-        sent = sent_scene(cluster, scene)
         statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers")
-        return Picture(cluster, scene, settings, reach, statistics, sent).trace
+        return _tracing(cluster, scene, settings, reach, statistics)
 
     return prepare
 
@@ -68,47 +67,39 @@ def camera_json(scene: Scene) -> str:
     return json.dumps(scene.camera.to_dict(), default=np.generic.item)
 
 
-@dataclass(eq=False)
-class Picture:
-    """A picture on its way."""
+def _tracing(
+    cluster: Cluster, scene: Scene, settings: Settings, reach: float, statistics: Statistics
+) -> TraceBand:
+    """Return what traces the bands of a picture, of which some regions are given away ahead."""
+    camera, region = camera_json(scene), scene.camera.region
+    given = sent_scene(cluster, scene), camera, json.dumps(vars(settings)), reach
+    threads = sum(cluster.workers().values())
+    rows = region.height * sum(len(each.rays()) for each in rounds(settings))
+    # Each part takes a look at every triangle: few are best.
+    step = max(1, min(-(-rows // (EACH * threads)), MOST // region.width))
 
-    cluster: Cluster
-    scene: Scene
-    settings: Settings
-    reach: float
-    statistics: Statistics
-    sent: Future  # the scene, on the workers
+    def parts(band: Region) -> list[Region]:
+        ends = range(band.y0, band.y1, step)
+        return [replace(band, y0=y, y1=min(y + step, band.y1)) for y in ends]
 
-    def __post_init__(self) -> None:
-        r = self.scene.camera.region
-        self._camera = camera_json(self.scene)
-        self._threads = sum(self.cluster.workers().values())
-        times = sum(len(each.rays()) for each in rounds(self.settings))
-        rows = r.height * times  # each takes a look at every triangle: few are best
-        self._rows = max(1, min(-(-rows // (EACH * self._threads)), MOST // r.width))
-        every = rays_in_order(self.scene.camera, self.settings)
-        self._todo = ((part, *at) for band, at in every for part in self._parts(band))
-        self._ahead: deque[Future] = deque()
+    every = rays_in_order(scene.camera, settings)
+    todo = ((part, at) for band, at in every for part in parts(band))
+    ahead: deque[Future] = deque()
 
-    def _parts(self, band: Region) -> list[Region]:
-        ends = range(band.y0, band.y1, self._rows)
-        return [replace(band, y0=y, y1=min(y + self._rows, band.y1)) for y in ends]
-
-    def _ask(self, region: Region, dx: float, dy: float) -> Future:
-        chosen, at = json.dumps(vars(self.settings)), tuple(map(int, vars(region).values()))
-        given = self.sent, self._camera, chosen, self.reach, at, dx, dy
-        return self.cluster.ask(tasks.trace, *given)
-
-    def trace(self, band: Region, dx: float, dy: float) -> Work[Hits]:
+    def trace(band: Region, dx: float, dy: float) -> Work[Hits]:
         """Return what a band's rays see, once all is there."""
-        parts, found = self._parts(band), []
-        for number in range(len(parts)):
-            for unit in islice(self._todo, AHEAD * self._threads - len(self._ahead)):
-                self._ahead.append(self._ask(*unit))
-            seen, took = yield from self.cluster.answer(self._ahead.popleft())
-            count_in(self.statistics, took)
+        found = []
+        count = len(parts(band))
+        for number in range(count):
+            for part, at in islice(todo, AHEAD * threads - len(ahead)):
+                corners = tuple(vars(part).values())
+                ahead.append(cluster.ask(tasks.trace, *given, corners, *at))
+            seen, took = yield from cluster.answer(ahead.popleft())
+            count_in(statistics, took)
             found.append(seen)
-            yield Progress((number + 1) / len(parts))
-        if self.settings.method.is_proven:
-            return joined(found, self.scene, band, dx, dy)
+            yield Progress((number + 1) / count)
+        if settings.method.is_proven:
+            return joined(found, scene, band, dx, dy)
         return Hits.joined(found)
+
+    return trace

@@ -1,6 +1,6 @@
 """Has workers find the rows of the trade, or of the extremes: each row, or scene, by one of them.
 
-The columns that are timed, as the record of each says, are the worker's own.
+Times and memory are the worker's own.
 """
 
 from __future__ import annotations

@@ -70,11 +70,10 @@ def _placed(item: Item, mesh: bpy.types.Mesh) -> None:
     moves = item.moves or (None,)
     for level, move in enumerate(moves, 1 - len(moves)):
         name = item.name if level == 0 else f"{item.name}, parent {-level}"
-        made = bpy.data.objects.new(name, mesh if level == 0 else None)
-        bpy.context.scene.collection.objects.link(made)
+        made = _object(name, mesh if level == 0 else None)
         made.parent = parent
         if isinstance(move, Sheared):  # only the inverse of a parent's matrix holds a shear
-            made.parent = parent or _empty(f"{name}, root")
+            made.parent = parent or _object(f"{name}, root")
             made.matrix_parent_inverse = Matrix(move.matrix.tolist())
         elif move:
             x, y, z, w = move.turn
@@ -84,8 +83,8 @@ def _placed(item: Item, mesh: bpy.types.Mesh) -> None:
         parent = made
 
 
-def _empty(name: str) -> bpy.types.Object:
-    made = bpy.data.objects.new(name, None)
+def _object(name: str, mesh: bpy.types.Mesh | None = None) -> bpy.types.Object:
+    made = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(made)
     return made
 

@@ -121,9 +121,9 @@ def _program(given: Namespace) -> Program:
         names = ", ".join(f"{{{key}}}" for key in FILES)
         raise SceneError(f"the command names no file of a scene: one of {names}")
     for name in re.findall(r"{(\w+)}", given.command):
-        near = [] if name in (*FILES, OUT.strip("{}")) else get_close_matches(name, FILES, 1)
-        if near:
-            raise SceneError(f"the command names {{{name}}}; {{{near[0]}}} is the nearest")
+        for near in get_close_matches(name, FILES, 1):
+            if near != name:
+                raise SceneError(f"the command names {{{name}}}; {{{near}}} is the nearest")
     try:
         check_starts(words[0])
         if not given.no_sandbox:

@@ -15,7 +15,7 @@ from reference_tracer.camera_files.frame import Y_UP_FROM_Z_UP
 from reference_tracer.camera_files.opencv import body_of
 from reference_tracer.files.scenes import save_scene
 from reference_tracer.pictures import colors_file
-from reference_tracer.report.folders import write_json
+from reference_tracer.report.folders import write_all
 from reference_tracer.scene import Camera, SceneError
 
 from .gltf_files import glb
@@ -54,18 +54,18 @@ def write_kit(folder: Path, scenes: Sequence[KitScene], blends: bool | None = No
     """
     for kit in scenes:
         own = folder / kit.name
-        own.mkdir(parents=True, exist_ok=True)
+        write_all(
+            own,
+            {
+                "scene.obj": obj_text(kit, "scene.mtl"),
+                "scene.mtl": mtl_text(kit),
+                "colors.json": colors_file.text(kit.scene, ()),
+                "camera.json": opencv(kit.camera),
+                CAMERA_Y_UP: opencv(kit.camera, y_up=True),
+            },
+        )
         save_scene(own / "scene.npz", kit.scene)
         (own / "scene.glb").write_bytes(glb(kit))
-        texts = {
-            "scene.obj": obj_text(kit, "scene.mtl"),
-            "scene.mtl": mtl_text(kit),
-            "colors.json": colors_file.text(kit.scene, ()),
-        }
-        for name, text in texts.items():
-            (own / name).write_text(text, encoding="utf-8")
-        write_json(own / "camera.json", opencv(kit.camera))
-        write_json(own / CAMERA_Y_UP, opencv(kit.camera, y_up=True))
     about = {kit.name: kit.sentence for kit in scenes}
     text = json.dumps(about, indent=1, ensure_ascii=False)
     (folder / "kit.json").write_text(text + "\n", encoding="utf-8")

@@ -38,12 +38,15 @@ def write(folder: Path, program: Program, results: Sequence[Result]) -> None:
     OSError
         If the folder cannot be written.
     """
-    texts = {
-        PAGE: _page(program, results),
-        BADGE: badge(results),
-        JUNIT: junit("reftrace conform", {program.command: [r.judged for r in results]}),
-    }
-    write_all(folder, {**texts, JSON: _content(program, results)})
+    write_all(
+        folder,
+        {
+            PAGE: _page(program, results),
+            BADGE: badge(results),
+            JUNIT: junit("reftrace conform", {program.command: [r.judged for r in results]}),
+            JSON: _content(program, results),
+        },
+    )
 
 
 def verdict(results: Sequence[Result]) -> Verdict:

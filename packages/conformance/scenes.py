@@ -91,17 +91,13 @@ class KitScene:
     def scene(self) -> Scene:
         """The traced scene; items of one shape share a mesh."""
         shapes = list(dict.fromkeys(item.shape for item in self.items))
+        rgba = np.array([(*color, 1) for color in PALETTE], np.float32)
         instances = tuple(
-            Instance(shapes.index(i.shape), k, i.world_from_object, rgba(i.colors))
+            Instance(shapes.index(i.shape), k, i.world_from_object, rgba[list(i.colors)])
             for k, i in enumerate(self.items)
         )
         names = tuple(item.name for item in self.items)
         return Scene(self.camera, tuple(s.mesh for s in shapes), instances, objects=names)
-
-
-def rgba(colors: Sequence[int]) -> Colors:
-    """Return colours of the palette as (k, 4) linear RGBA."""
-    return np.array([(*PALETTE[c], 1) for c in colors], np.float32)
 
 
 def view(
@@ -155,10 +151,6 @@ _BRACKET = Item("Bracket", bracket())
 _POST = Item("Post", box(0.15, 0.15, 0.7), (Move((1.6, 1.3, 0.7)),), (1,))
 _BALL = Item("Ball", ball(), (Move((0.25, 1.1, 0.85), scale=(0.3, 0.3, 0.3)),), (2,))
 _THREE = (_BRACKET, _POST, _BALL)
-
-
-def _moved(*moves: Move | Sheared) -> tuple[Item, ...]:
-    return (Item("Bracket", bracket(), moves), _POST)
 
 
 def _cameras() -> list[KitScene]:
@@ -242,7 +234,10 @@ def _transforms() -> list[KitScene]:
             (Move((0, 0, 0.5), scale=(1, 1, 0)),),
         ),
     }
-    return [KitScene(f"transform-{n}", s, _moved(*moves)) for n, (s, moves) in kinds.items()]
+    return [
+        KitScene(f"transform-{n}", s, (Item("Bracket", bracket(), moves), _POST))
+        for n, (s, moves) in kinds.items()
+    ]
 
 
 def _instances() -> list[KitScene]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -57,16 +58,27 @@ def _shape(name: str, vertices: ArrayLike, polygons: Sequence[Polygon]) -> Shape
     return Shape(name, np.array(vertices, np.float32), tuple(polygons))
 
 
+def _circle(count: int) -> Floats:
+    """Return points of the circle of radius 1, (count, 2)."""
+    turns = 2 * np.pi * np.arange(count) / count
+    return np.column_stack((np.cos(turns), np.sin(turns)))
+
+
+def _walls(count: int) -> list[Polygon]:
+    """Return quads around a prism, whose lower corners are the first `count`."""
+    ends = [(k, (k + 1) % count) for k in range(count)]
+    return [(a, b, b + count, a + count) for a, b in ends]
+
+
 @cache
 def bracket() -> Shape:
     """Return an L with a slanted top, 2 x 1.5 x 0.9 m: no mirroring leaves it as it is."""
     profile = np.array([(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 1.5), (0, 1.5)])
     low = np.column_stack((profile, np.zeros(6)))
     high = np.column_stack((profile, 0.4 + 0.25 * profile[:, 0]))
-    sides = [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
     top = [(6, 7, 8, 9), (6, 9, 10, 11)]
     bottom = [(3, 2, 1, 0), (5, 4, 3, 0)]
-    return _shape("bracket", np.concatenate((low, high)), sides + top + bottom)
+    return _shape("bracket", np.concatenate((low, high)), [*_walls(6), *top, *bottom])
 
 
 @cache
@@ -78,38 +90,35 @@ def box(x: float = 1.0, y: float = 1.0, z: float = 1.0) -> Shape:
 
 
 @cache
-def ball(rings: int = 6, around: int = 10) -> Shape:
+def ball() -> Shape:
     """Return a globe of radius 1, its quads flat as both their ends are parallels."""
+    rings, around = 6, 10
     angles = np.pi * np.arange(1, rings) / rings
-    turns = 2 * np.pi * np.arange(around) / around
-    ring = np.column_stack((np.cos(turns), np.sin(turns)))
+    ring = _circle(around)
     points = [
         np.column_stack((np.sin(a) * ring, np.full(around, np.cos(a)))) for a in angles.tolist()
     ]
     vertices = np.concatenate(([(0, 0, 1)], *points, [(0, 0, -1)]))
     last = len(vertices) - 1
+    meridians = np.arange(1, last).reshape(-1, around).T.tolist()
     faces: list[Polygon] = []
-    for k in range(around):
-        n = (k + 1) % around
-        faces.append((0, 1 + k, 1 + n))
-        for r in range(rings - 2):
-            a, b = 1 + r * around, 1 + (r + 1) * around
+    for here, next_ in zip(meridians, [*meridians[1:], meridians[0]], strict=True):
+        faces.append((0, here[0], next_[0]))
+        for (a, b), (c, d) in pairwise(zip(here, next_, strict=True)):
             # Two triangles: in float32 the four corners are flat only nearly.
-            faces += [(a + k, b + k, b + n), (a + k, b + n, a + n)]
-        a = 1 + (rings - 2) * around
-        faces.append((a + k, last, a + n))
+            faces += [(a, c, d), (a, d, b)]
+        faces.append((here[-1], last, next_[-1]))
     return _shape("ball", vertices, faces)
 
 
 @cache
-def prism(sides: int = 6) -> Shape:
+def prism() -> Shape:
     """Return a prism on a regular polygon, its ends one face each, its axis along Z."""
-    turns = 2 * np.pi * np.arange(sides) / sides
-    ring = np.column_stack((np.cos(turns), np.sin(turns)))
+    sides = 6
+    ring = _circle(sides)
     ends = [np.column_stack((ring, np.full(sides, z))) for z in (-1, 1)]
-    walls = [(k, (k + 1) % sides, (k + 1) % sides + sides, k + sides) for k in range(sides)]
     caps = [tuple(range(sides, 2 * sides)), tuple(range(sides))[::-1]]
-    return _shape("prism", np.concatenate(ends), [*walls, *caps])
+    return _shape("prism", np.concatenate(ends), [*_walls(sides), *caps])
 
 
 @cache
@@ -126,13 +135,12 @@ def sheet(size: float = 1.0) -> Shape:
 
 
 @cache
-def needles(count: int = 24) -> Shape:
+def needles() -> Shape:
     """Return a fan of thin triangles about the origin, in XZ: each is 13 times as long as wide."""
-    turns = 2 * np.pi * np.arange(count) / count
-    out = np.column_stack((np.cos(turns), np.zeros(count), np.sin(turns)))
-    across = np.column_stack((-np.sin(turns), np.zeros(count), np.cos(turns))) * 0.05
+    out = np.insert(_circle(24), 1, 0, axis=1)
+    across = out[:, ::-1] * (-0.05, 0, 0.05)
     corners = np.stack((0.15 * out, 1.5 * out - across, 1.5 * out + across), axis=1)
-    faces = [(k, k + 1, k + 2) for k in range(0, 3 * count, 3)]
+    faces = [(k, k + 1, k + 2) for k in range(0, 3 * len(out), 3)]
     return _shape("needles", corners.reshape(-1, 3), faces)
 
 

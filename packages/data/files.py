@@ -13,7 +13,7 @@ from reference_tracer.files.file_kinds import mistaken
 from reference_tracer.files.png.samples import PngError
 
 from .kind import Kind
-from .step import Step, step_of
+from .step import Step
 
 SUFFIXES = (".exr", ".npy", ".npz", ".png")
 _ENDS = ("rgba", "rgb", "xyz", "z", "v", "y", "r", "x")  # letters of a layer's channels, together
@@ -26,7 +26,6 @@ class StoredData:
     values: Array  # (h, w, c), row 0 at the bottom
     step: Step  # of integers with a unit of 1
     top: float  # the largest integer that it can hold; 1 of floats
-    layer: str  # the name of the array, of several
 
 
 def read(path: Path | Array, kind: Kind, layer: str = "", top_down: bool = False) -> StoredData:
@@ -72,13 +71,10 @@ def _stored(
         values = values[::-1]
     if values.dtype.kind not in "fiub":
         raise OSError(f"'{path}' holds {values.dtype} and not numbers")
-    whole = values.dtype.kind != "f"
-    top = float(np.iinfo(values.dtype).max) if whole and values.dtype.kind != "b" else 1.0
-    return StoredData(values, step_of(values.dtype, 1.0), top, name)
-
-
-def _npy(path: Path) -> dict[str, Array]:
-    return {"": npz.load_npy(path)}
+    if values.dtype.kind == "f":
+        return StoredData(values, Step(f"float{8 * min(values.dtype.itemsize, 8)}"), 1.0)
+    top = 1.0 if values.dtype.kind == "b" else float(np.iinfo(values.dtype).max)
+    return StoredData(values, Step(""), top)
 
 
 def _npz(path: Path) -> dict[str, Array]:
@@ -115,7 +111,7 @@ def _exr(path: Path) -> dict[str, Array]:
     return out
 
 
-_READ = {".npy": _npy, ".npz": _npz, ".exr": _exr, ".png": _png}
+_READ = {".npy": lambda path: {"": npz.load_npy(path)}, ".npz": _npz, ".exr": _exr, ".png": _png}
 
 
 def _chosen(path: object, layers: Mapping[str, Array], kind: Kind, layer: str) -> str:

@@ -102,21 +102,20 @@ class GivenData:
         stored = replace(stored, values=stored.values[at])
         renderer, known = making.renderer_of("")
         sampling = Sampling(sample_radius=making.filter_radius, renderer=renderer)
-        hits: Hits | None = None
+        remarks = []
         if self.kind == "ids":
-            hits = trace(scene, Settings())
-            found = [_ids(stored, scene, hits, self.names)]
+            data = _ids(stored, scene, trace(scene, Settings()), self.names)
         else:
             found = [_data(self, stored, scene, kind) for kind in self.conventions(stored)]
-        data = found[0]
-        remarks = [] if self.kind == "ids" else [f"it holds {data.step.words}"]
-        if len(found) > 1:
-            hits = trace(scene, Settings())
-            right = [int(one.flat.same(scene, hits, sampling, hits.t).sum()) for one in found]
-            data = found[int(np.argmax(right))]
-            remarks.append(
-                f"its {data.kind.words} are taken to be {data.kind.variant}, as most agree"
-            )
+            data = found[0]
+            remarks.append(f"it holds {data.step.words}")
+            if len(found) > 1:
+                hits = trace(scene, Settings())
+                right = [int(one.flat.same(scene, hits, sampling, hits.t).sum()) for one in found]
+                data = found[int(np.argmax(right))]
+                remarks.append(
+                    f"its {data.kind.words} are taken to be {data.kind.variant}, as most agree"
+                )
         said = tuple(f"of '{self.name}': {remark}" for remark in remarks)
         source = Source(file=self.name, known=known, remarks=said, what=data.kind.words)
         return DataPicture(data.color, source, sampling=sampling, data=data)

@@ -25,10 +25,6 @@ Made = Callable[[Seen], Floats]  # -> (n, c)
 Turn = Callable[[Floats, Seen], Floats]  # of right values (n, c), what a fault makes of them
 
 
-def _firm(seen: Seen) -> Floats:
-    return np.zeros(len(seen.t))
-
-
 @dataclass(frozen=True)
 class Kind:
     """A kind of data: what a file of it holds, and what is right."""
@@ -41,7 +37,7 @@ class Kind:
     unit: str = ""
     follows_t: bool = True  # rounding along a ray, or beside it, moves the values
     # How far the rounding of a renderer may move them besides, (n,).
-    loose: Callable[[Seen], Floats] = _firm
+    loose: Callable[[Seen], Floats] = lambda seen: np.zeros(len(seen.t))
     empty: tuple[float, ...] = (0.0,)  # what all channels have where nothing is
     space: str = ""  # of vectors: 'world' or 'camera'
     encoded: bool = False  # -1 to 1 is stored as 0 to 1
@@ -171,15 +167,6 @@ class Data:
         """
         return self.of_frame(frame), np.where(self.blank[..., None], np.nan, self.values)
 
-    def silent(self, frame: Frame) -> str:
-        """Say that all pixels hold the same, if a traced frame has more to show; else empty."""
-        made, held = self.pair(frame)
-        expected = frame.object_index[..., None] if self.kind.name == "ids" else made
-        if _is_constant(expected) or not _is_constant(held):
-            return ""
-        same = "are the same in every pixel"
-        return f"{self.kind.words} {same}: a constant says nothing of what is wrong"
-
     def shown(self, values: Array) -> Colors:
         """Return values (h, w, c) as colours to look at, (h, w, 4): from the file's least to most.
 
@@ -199,7 +186,3 @@ class Data:
     def color(self) -> Colors:
         """The file's own values as colours, (h, w, 4)."""
         return self.shown(np.where(self.blank[..., None], np.nan, self.values))
-
-
-def _is_constant(values: Array) -> bool:
-    return np.array_equal(values, np.broadcast_to(values[0, 0], values.shape), equal_nan=True)

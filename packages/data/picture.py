@@ -77,10 +77,19 @@ class DataPicture(Picture):
 
     def silent(self, frame: Frame) -> str:
         """Say why such a picture says nothing of what is wrong; many a fault can empty one."""
-        return self.data.silent(frame)
+        made, held = self.data.pair(frame)
+        expected = frame.object_index[..., None] if self.data.kind.name == "ids" else made
+        if _is_constant(expected) or not _is_constant(held):
+            return ""
+        same = "are the same in every pixel"
+        return f"{self.data.kind.words} {same}: a constant says nothing of what is wrong"
 
     def faults_of(self, known: Sequence[Any]) -> Sequence[Any]:
         """Return the faults that are looked for: those of data, and those of scenes."""
         from .faults import faults_of_data
 
         return faults_of_data(known)
+
+
+def _is_constant(values: Array) -> bool:
+    return np.array_equal(values, np.broadcast_to(values[0, 0], values.shape), equal_nan=True)

@@ -9,18 +9,12 @@ from reference_tracer.arrays import Floats
 from reference_tracer.pictures.bounds import U32
 from reference_tracer.pictures.storage import LEVEL_SLACK
 
-_TYPES: dict[str, type[np.floating]] = {
-    "float16": np.float16,
-    "float32": np.float32,
-    "float64": np.float64,
-}
-
 
 @dataclass(frozen=True)
 class Step:
     """How a file stores a number: floats of a type, or integers, of some unit."""
 
-    type: str  # a key of _TYPES, or '' for integers
+    type: str  # numpy's name of the floats, or '' for integers
     unit: float = 1.0  # what 1 is
     cut: bool = False  # digits are cut off, not rounded
 
@@ -36,9 +30,8 @@ class Step:
         """
         if not self.type:
             return np.full(np.shape(values), (0.5 + LEVEL_SLACK) * self.unit)
-        of = _TYPES[self.type]
         stored = np.nan_to_num(np.abs(values / self.unit), posinf=0.0)
-        size = np.minimum(stored, float(np.finfo(of).max)).astype(of)
+        size = np.minimum(stored, float(np.finfo(self.type).max)).astype(self.type)
         return self.unit * np.spacing(size).astype(np.float64) / (1 if self.cut else 2)
 
     def holds(self, values: Floats) -> bool:
@@ -46,12 +39,7 @@ class Step:
         values = values[np.isfinite(values)]
         if self.type:
             with np.errstate(over="ignore"):
-                on = self.unit * (values / self.unit).astype(_TYPES[self.type]).astype(np.float64)
+                on = self.unit * (values / self.unit).astype(self.type).astype(np.float64)
         else:
             on = np.rint(values / self.unit) * self.unit
         return bool((np.abs(values - on) <= U32 * np.abs(values)).all())
-
-
-def step_of(dtype: np.dtype, unit: float) -> Step:
-    """Return the step of an array's type; of integers, 1 is `unit`."""
-    return Step("", unit) if dtype.kind in "iub" else Step(f"float{8 * min(dtype.itemsize, 8)}")

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Bools, Floats, Index
 
-from .programs import Letters, Mask, columns
-from .subjects.subject import Subject
+from .form import Arrays
+from .programs import Letters, columns
+from .subjects.subject import Groups, Subject
 from .tally import Tally
 from .truth import truth
 from .wrong_case import WrongCase
@@ -28,69 +27,52 @@ class TableCases:
     """
 
     subject: Subject
-    given: tuple[Floats, ...]
-    group: NDArray[np.int64]
+    given: Arrays
+    group: Index
     letters: Letters
     right: Floats
     allowed: Floats  # how far an answer may be off
-    doubt: Mask  # sound float64 may have it otherwise
-    aside: Collection[str] = ()  # groups that count for nothing, and only tell mistakes apart
-    silent: Collection[str] = ()  # and those that do not tell them apart
-    close: Collection[str] = ()  # and those in which the order of a sum decides in float32
+    doubt: Bools  # sound float64 may have it otherwise
 
     @classmethod
-    def of(
-        cls,
-        subject: Subject,
-        groups: Mapping[str, tuple[Floats, ...]],
-        whole: Collection[str] = (),
-        aside: Collection[str] = (),
-        silent: Collection[str] = (),
-        close: Collection[str] = (),
-    ) -> TableCases:
-        """Return cases with what is true of them.
-
-        Parameters
-        ----------
-        subject : Subject
-        groups : mapping of str to tuple of arrays
-            What is given, by the names of the subject's groups.
-        whole : collection of str, optional
-            The groups in which float64 rounds nothing.
-        aside, silent, close : collection of str, optional
-            Groups as in the fields.
-        """
+    def of(cls, subject: Subject, groups: Groups) -> TableCases:
+        """Return cases with what is true of them."""
         names = list(subject.groups)
         given = tuple(np.concatenate(arrays) for arrays in zip(*groups.values(), strict=True))
         letters = subject.letters(*given)
         each = letters.shape[0] // len(given[0])
         counts = [len(arrays[0]) * each for arrays in groups.values()]
         group = np.repeat([names.index(name) for name in groups], counts)
-        is_whole = np.repeat([name in whole for name in groups], counts)
+        is_whole = np.repeat([name in subject.whole for name in groups], counts)
         found = truth(subject.programs[0], letters, is_whole)
-        return cls(subject, given, group, letters, *found, aside, silent, close)
+        return cls(subject, given, group, letters, *found)
 
-    def among(self, *groups: str) -> Mask:
+    @property
+    def each(self) -> int:
+        """How many answers a case has."""
+        return len(self.group) // len(self.given[0])
+
+    def among(self, *groups: str) -> Bools:
         """Return which are of some groups."""
         names = list(self.subject.groups)
         return np.isin(self.group, [names.index(name) for name in groups])
 
     @cached_property
-    def counts(self) -> Mask:
+    def counts(self) -> Bools:
         """Which are more than a means to tell mistakes apart."""
-        return ~self.among(*self.aside)
+        return ~self.among(*self.subject.aside)
 
     @cached_property
-    def tells(self) -> Mask:
+    def tells(self) -> Bools:
         """Of which no rounding decides what a program makes, be it right or wrong."""
-        return ~self.doubt & ~self.among(*self.silent)
+        return ~self.doubt & ~self.among(*self.subject.silent)
 
     @cached_property
-    def firm(self) -> Mask:
+    def firm(self) -> Bools:
         """Which are answered alike in every call."""
-        return ~self.doubt & self.counts & ~self.among(*self.close)
+        return ~self.doubt & self.counts & ~self.among(*self.subject.close)
 
-    def near(self, table: Floats, numbers: slice = slice(None)) -> Mask:
+    def near(self, table: Floats, numbers: slice = slice(None)) -> Bools:
         """Return where some numbers of each answer are all right."""
         with np.errstate(all="ignore"):
             off = np.abs(table - self.right[:, numbers])
@@ -109,43 +91,42 @@ class TableAnswers:
     table: Floats
 
     @cached_property
-    def hit(self) -> Mask:
+    def hit(self) -> Bools:
         """Where it says to hit."""
         return np.isfinite(self.table[:, 0])
 
     @cached_property
-    def raised(self) -> Mask:
+    def raised(self) -> Bools:
         """Where it raises."""
         return np.isneginf(self.table[:, 0])
 
     @cached_property
-    def to_hit(self) -> Mask:
+    def to_hit(self) -> Bools:
         """Where it should."""
         return np.isfinite(self.cases.right[:, 0])
 
     @cached_property
-    def right(self) -> dict[str, Mask]:
+    def right(self) -> dict[str, Bools]:
         """Where each share of a score is right, by its name."""
         same = (self.hit == self.to_hit) & ~self.raised
-        parts = self.cases.subject.parts
         found = {
             part.name: same & (self.cases.near(self.table[:, numbers], numbers) | ~self.to_hit)
-            for part, numbers in zip(parts, columns(parts), strict=True)
+            for part, numbers in columns(self.cases.subject.parts)
         }
         return {name: found.get(name, same) for name in self.cases.subject.weights}
 
     @cached_property
-    def wrong(self) -> Mask:
+    def wrong(self) -> Bools:
         """Where anything is wrong, without a doubt."""
         right = np.stack(list(self.right.values())).all(axis=0)
         return ~right & ~self.cases.doubt & self.cases.counts & ~self.raised
 
     @property
-    def wrong_hits(self) -> Mask:
+    def wrong_hits(self) -> Bools:
         """Where it hits what it should not, or the other way round, without a doubt."""
         return self.wrong & (self.hit != self.to_hit)
 
-    def wrong_numbers(self, share: str = "") -> Mask:
+    def wrong_numbers(self, share: str = "") -> Bools:
         """Return where it hits, or misses, as it should, and numbers of a share are wrong."""
         own = self.wrong & (self.hit == self.to_hit)
         return own & ~self.right[share] if share else own
@@ -164,16 +145,15 @@ class TableAnswers:
         cases = self.cases
         _, first = np.unique(cases.group[self.wrong], return_index=True)
         rows = np.flatnonzero(self.wrong)[first][:SHOWN]
-        each = len(cases.group) // len(cases.given[0])
         names = list(cases.subject.groups)
         return [
             WrongCase.of(
                 cases.subject.form,
                 names[cases.group[row]],
-                tuple(array[row // each] for array in cases.given),
+                tuple(array[row // cases.each] for array in cases.given),
                 cases.right[row],
                 self.table[row],
-                place=row % each,
+                place=row % cases.each,
             )
             for row in rows.tolist()
         ]

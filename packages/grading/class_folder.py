@@ -23,7 +23,7 @@ from reference_tracer import __version__
 from reference_tracer.report.folders import write_json, write_text
 from reference_tracer_processes.sandbox import sandbox
 
-from .external import Run
+from .external import Code
 from .formats import FORMATS
 from .judging import Judgement
 from .names import numbered
@@ -67,12 +67,12 @@ class ClassFolder:
         self._options = repr((subject.name, options))
         self._files = _file_names(names)
 
-    def kept_of(self, submissions: Mapping[str, Path | Run]) -> dict[str, Student]:
+    def kept_of(self, submissions: Mapping[str, Code]) -> dict[str, Student]:
         """Return what was said before of those that have not changed since, by name."""
         found = {name: self._kept(name, each) for name, each in submissions.items()}
         return {name: said for name, said in found.items() if said}
 
-    def keep(self, submission: Path | Run, j: Judgement) -> Student:
+    def keep(self, submission: Code, j: Judgement) -> Student:
         """Keep a student's page, and what is said of him, for `save`; return that."""
         said, text = student(j), page(j)
         shown = hashlib.sha256(text.encode()).hexdigest()
@@ -103,16 +103,14 @@ class ClassFolder:
         for name in formats:
             for path, text in FORMATS[name](pages):
                 write_text(self._directory / path, text)
-        alone = [self._page(s["file"]) for s in students] if len(students) == 1 else []
-        text = (
-            alone[0].read_text(encoding="utf-8")
-            if alone
-            else class_page(pages, self._subject.title)
-        )
+        if len(students) == 1:
+            text = self._page(students[0]["file"]).read_text(encoding="utf-8")
+        else:
+            text = class_page(pages, self._subject.title)
         write_text(self._directory / PAGE, text)
         write_json(self._directory / JSON, to_dict(self._subject, students))
 
-    def _kept(self, name: str, submission: Path | Run) -> Student | None:
+    def _kept(self, name: str, submission: Code) -> Student | None:
         with suppress(OSError, ValueError, KeyError, TypeError):
             found = json.loads(self._record(name).read_text(encoding="utf-8"))
             record, said = found["record"], dict(found["record"]["student"])
@@ -133,7 +131,7 @@ class ClassFolder:
     def _record(self, name: str) -> Path:
         return self._page(name).with_suffix(".json")
 
-    def _key(self, submission: Path | Run) -> str:
+    def _key(self, submission: Code) -> str:
         """Return what tells a student's code, and the options, from any other.
 
         Of a Python file that is what it imports of its own folder, too; of a program all files that
@@ -142,8 +140,7 @@ class ClassFolder:
         if isinstance(submission, Path):
             files = _with_imports(submission)
         else:
-            words = (part for word in submission.words for part in re.split(r"[\s=]", word))
-            named = [file for word in words if word for file in _files_in(Path(word))]
+            named = [file for path in submission.named for file in _files_in(path)]
             results = self._directory.resolve()  # may lie in such a folder
             files = [file for file in named if results not in file.resolve().parents]
         parts = [__version__, self._options, str(submission), str(bool(sandbox()))]
@@ -155,9 +152,8 @@ class ClassFolder:
 
 def _files_in(path: Path) -> list[Path]:
     """Return a file, or all files in a folder."""
-    if not path.is_dir():
-        return [path] if path.is_file() else []
-    return sorted(file for file in islice(path.rglob("*"), MOST_FILES) if file.is_file())
+    every = islice(path.rglob("*"), MOST_FILES) if path.is_dir() else (path,)
+    return sorted(file for file in every if file.is_file())
 
 
 def _with_imports(path: Path) -> list[Path]:

@@ -29,7 +29,7 @@ from reference_tracer_processes.options import add_limits
 from reference_tracer_processes.sandbox import sandbox, secret
 
 from .exchange import EXCHANGES
-from .external import Run
+from .external import Code
 from .options import MEMORY, PIXELS, JudgeOptions
 from .subjects import NAMES, subject
 
@@ -84,7 +84,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument(
         "--exchange",
-        choices=tuple(EXCHANGES),
+        choices=EXCHANGES,
         help="what these files hold: csv, lines of numbers (default), or raw, float64",
     )
     parser.add_argument(
@@ -168,7 +168,7 @@ def judge(options: JudgeOptions) -> int:
     return max(CODES[s["verdict"]] for s in students)
 
 
-def _folder(options: JudgeOptions, submissions: Mapping[str, Path | Run]) -> ClassFolder | None:
+def _folder(options: JudgeOptions, submissions: Mapping[str, Code]) -> ClassFolder | None:
     """Return where the judgements are kept, if anywhere."""
     from .class_folder import ClassFolder
 
@@ -183,7 +183,7 @@ Named = tuple[str, Scene, Path]
 
 
 def _judged(
-    options: JudgeOptions, submissions: Mapping[str, Path | Run], folder: ClassFolder | None
+    options: JudgeOptions, submissions: Mapping[str, Code], folder: ClassFolder | None
 ) -> dict[str, Student]:
     """Judge students, print what is said of each, and keep it."""
     from .report import student
@@ -206,7 +206,7 @@ def _judged(
 
 def _work(
     options: JudgeOptions,
-    submissions: Mapping[str, Path | Run],
+    submissions: Mapping[str, Code],
     scenes: Sequence[Named],
     told: Callable[[Judgement], Student],
 ) -> Work[dict[str, Student]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from reference_tracer.arrays import Places
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.world import world_corners
 
@@ -16,10 +16,10 @@ from .wrong_case import WrongCase
 EACH = 3  # pixels of a mark
 
 
-def _spread(pixel: NDArray[np.intp]) -> NDArray[np.intp]:
+def _spread(pixel: Places) -> Places:
     """Return EACH of some pixels: the middles of as many equal parts, from the lowest row up."""
     parts = min(EACH, len(pixel))
-    return pixel[(2 * np.arange(parts) + 1) * len(pixel) // (2 * max(parts, 1))]
+    return pixel[(2 * np.arange(parts) + 1) * len(pixel) // (2 * parts)]
 
 
 def find_examples(look: Look, ask: Ask) -> list[WrongCase]:
@@ -32,17 +32,15 @@ def find_examples(look: Look, ask: Ask) -> list[WrongCase]:
     StudentError
         If the function, which is asked about them again, fails.
     """
-    judged, marks = look.judged, look.mark.ravel()
+    judged, hits, marks = look.judged, look.hits, look.mark.ravel()
+    names = (hits.instance, hits.triangle), (judged.instance, judged.triangle)
+    instance, triangle = np.where(np.isin(marks, FALSE_HITS), *names)
     wrong = [np.flatnonzero(marks == m) for m in Mark if m not in (Mark.RIGHT, *EXCUSED)]
     pixel = np.concatenate([_spread(own) for own in wrong])
-    shown = np.isin(marks[pixel], FALSE_HITS)
-    instance = np.where(shown, look.hits.instance[pixel], judged.instance[pixel])
-    triangle = np.where(shown, look.hits.triangle[pixel], judged.triangle[pixel])
-    keep = triangle != NOTHING  # a plane is not the student's
-    pixel, instance, triangle = pixel[keep], instance[keep], triangle[keep]
+    pixel = pixel[triangle[pixel] != NOTHING]  # a plane is not the student's
     if not len(pixel):
         return []
-    corners = world_corners(judged.scene, instance, triangle)
+    corners = world_corners(judged.scene, instance[pixel], triangle[pixel])
     question = arrays(judged.rays, pixel, corners)
     truth = known(*question)
     true = TRIANGLE.rows(np.where(truth.hit, truth.t, np.inf), truth.s)
@@ -55,7 +53,7 @@ def find_examples(look: Look, ask: Ask) -> list[WrongCase]:
             true[k],
             own[k],
             pixel=judged.position(p),
-            object=judged.scene.objects[judged.scene.instances[instance[k]].object],
+            object=judged.scene.objects[judged.scene.instances[instance[p]].object],
         )
         for k, p in enumerate(pixel.tolist())
     ]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import stat
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
@@ -20,38 +19,33 @@ _BYTES = 1 << 10  # of one answer, at most; of one with more than 32 numbers 32 
 _SPELT = {"1.#INF": "inf", "-1.#INF": "-inf", "1.#QNAN": "nan", "-1.#IND": "nan"}  # by old C
 
 
-@dataclass(frozen=True)
-class Exchange:
-    """How rays and answers are written: as text with commas, or as the numbers lie in memory."""
-
-    ending: str
-    is_text: bool
-
-    def write(self, path: Path, rays: Floats) -> None:
-        """Write lines of numbers, (n, columns)."""
-        if self.is_text:
-            np.savetxt(path, rays, fmt="%.17g", delimiter=",")
-        else:
-            path.write_bytes(rays.astype("<f8").tobytes())
-
-    def read(self, data: bytes, form: Form) -> Floats:
-        """Return answers (m, numbers).
-
-        Raises
-        ------
-        StudentError
-            If they are none.
-        """
-        if self.is_text:
-            return _from_text(data, form)
-        size = 8 * form.numbers
-        if len(data) % size:
-            text = f"it wrote {len(data):,} bytes: no whole number of answers of {size} bytes"
-            raise StudentError("answer", text)
-        return np.frombuffer(data, "<f8").reshape(-1, form.numbers)
+# How rays and answers are written: as text with commas, or as the numbers lie in memory.
+CSV, RAW = EXCHANGES = "csv", "raw"
 
 
-EXCHANGES = {"csv": Exchange(".csv", True), "raw": Exchange(".raw", False)}
+def write(path: Path, rays: Floats, exchange: str) -> None:
+    """Write lines of numbers, (n, columns)."""
+    if exchange == CSV:
+        np.savetxt(path, rays, fmt="%.17g", delimiter=",")
+    else:
+        path.write_bytes(rays.astype("<f8").tobytes())
+
+
+def read(data: bytes, form: Form, exchange: str) -> Floats:
+    """Return answers (m, numbers).
+
+    Raises
+    ------
+    StudentError
+        If they are none.
+    """
+    if exchange == CSV:
+        return _from_text(data, form)
+    size = 8 * form.numbers
+    if len(data) % size:
+        text = f"it wrote {len(data):,} bytes: no whole number of answers of {size} bytes"
+        raise StudentError("answer", text)
+    return np.frombuffer(data, "<f8").reshape(-1, form.numbers)
 
 
 def _from_text(data: bytes, form: Form) -> Floats:

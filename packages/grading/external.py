@@ -18,7 +18,7 @@ from typing import IO
 from reference_tracer.arrays import Floats
 from reference_tracer_processes.running import KEPT, Limits, ProgramError, filled, run, words_of
 
-from .exchange import ANSWERS, EXCHANGES, RAYS, all_of, answers_in, most_bytes
+from .exchange import ANSWERS, CSV, RAYS, all_of, answers_in, most_bytes, read, write
 from .form import Form
 from .student_error import StudentError
 from .submission import Submission
@@ -33,16 +33,16 @@ class Run:
 
     command: str
     words: tuple[str, ...]
-    exchange: str = "csv"  # one of EXCHANGES
+    exchange: str = CSV  # one of EXCHANGES
 
     @property
-    def own(self) -> Path | None:
-        """The last file or folder that it names: what the program lies in; else None."""
-        parts = [part for word in self.words for part in re.split(r"[\s=]", word)]
-        return next((Path(part) for part in reversed(parts) if part and Path(part).exists()), None)
+    def named(self) -> list[Path]:
+        """The files and folders that it names."""
+        parts = (part for word in self.words for part in re.split(r"[\s=]", word))
+        return [Path(part) for part in parts if part and Path(part).exists()]
 
     @classmethod
-    def parsed(cls, command: str, exchange: str = "csv") -> Run:
+    def parsed(cls, command: str, exchange: str = CSV) -> Run:
         """Return how a command is run.
 
         Raises
@@ -51,6 +51,9 @@ class Run:
             If a quotation has no end, or there is no word.
         """
         return cls(command, words_of(command), exchange)
+
+
+Code = Path | Run  # a student's: a Python file, or how a program of any language is started
 
 
 class Program(Submission):
@@ -62,7 +65,7 @@ class Program(Submission):
     def __init__(self, run: Run, form: Form, limits: Limits | None = None) -> None:
         super().__init__(form, limits)
         self.words = run.words
-        self._exchange = EXCHANGES[run.exchange]
+        self._exchange = run.exchange
 
     def end(self) -> None:
         """Nothing is left running after a call."""
@@ -74,7 +77,7 @@ class Program(Submission):
         with tempfile.TemporaryDirectory(
             prefix="reftrace-judge-", ignore_cleanup_errors=True
         ) as name:
-            answers = self._exchange.read(self._run(Path(name), question), self.form)
+            answers = read(self._run(Path(name), question), self.form, self._exchange)
         if len(answers) != len(question):
             text = (
                 f"it answered {len(answers):,} lines of {len(question):,}: one for each is wanted"
@@ -89,8 +92,8 @@ class Program(Submission):
         """
         own = folder / "own"
         own.mkdir()
-        given, made = (own / f"{name}{self._exchange.ending}" for name in ("rays", "answers"))
-        self._exchange.write(given, rays)
+        given, made = (own / f"{name}.{self._exchange}" for name in ("rays", "answers"))
+        write(given, rays, self._exchange)
         paths = {RAYS: str(given), ANSWERS: str(made)}
         words = filled(self.words, paths)
         by_pipe = not any(ANSWERS in word for word in self.words)
@@ -108,8 +111,9 @@ class Program(Submission):
                 text = error.message + of_limit * (error.kind == "time")
                 raise StudentError(error.kind, text) from error
             finally:
-                self._left -= time.monotonic() - began
-                self.seconds += time.monotonic() - began
+                took = time.monotonic() - began
+                self._left -= took
+                self.seconds += took
                 self._keep(err, *(() if by_pipe else (out,)))
             most = most_bytes(self.form, len(rays))
             if by_pipe:

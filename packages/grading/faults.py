@@ -10,16 +10,14 @@ be unrecognised.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Bools, Floats, Places
 
 from .cases import TableAnswers, TableCases
 from .known import Ask
-from .matching import Match, differs, with_one, with_two
-from .programs import Mask
+from .matching import Match, differs, doubles, matches, singles
 from .submission import Submission
 
 ALONE = 3, 1  # sizes of the calls in which some cases are asked about again
@@ -48,11 +46,11 @@ def find_faults(answers: TableAnswers) -> tuple[list[Fault], Match | None]:
     """Return what is wrong with a function, and a wrong program that answers as it does, if any."""
     if not answers.wrong.any():
         return [], None
-    if ways := with_one(answers.cases, answers.table):
+    if ways := matches(answers.cases, answers.table, singles):
         return _matched(answers, ways)
     faults = _tested(answers, answers.wrong)
     if any(f.name == UNEXPLAINED or f.name.startswith(UNRECOGNISED) for f in faults):
-        ways = with_two(answers.cases, answers.table)
+        ways = matches(answers.cases, answers.table, doubles)
         if 0 < len(ways) <= MOST_WAYS:
             return _matched(answers, ways)
     return faults, None
@@ -96,9 +94,10 @@ def raising(student: Submission) -> list[Fault]:
     return [Fault("raises", text, student.raises)]
 
 
-def _tested(answers: TableAnswers, among: Mask) -> list[Fault]:
+def _tested(answers: TableAnswers, among: Bools) -> list[Fault]:
     """Return the faults of some wrong answers that pass their tests, and what is unrecognised."""
-    faults: list[Fault] = []
+    faults: dict[str, Fault] = {}
+    groups = list(answers.cases.subject.groups)
     for what, tests, share in answers.cases.subject.tests:
         wrong = answers.wrong_hits if what == "hits" else answers.wrong_numbers(share)
         left = wrong & among
@@ -106,26 +105,15 @@ def _tested(answers: TableAnswers, among: Mask) -> list[Fault]:
             for name, sentence, explained in test(answers):
                 if pairs := int((explained & left).sum()):
                     left &= ~explained
-                    _enter(faults, Fault(name, sentence, pairs))
+                    if name in faults:  # the later sentence says more
+                        pairs += faults[name].pairs
+                    faults[name] = Fault(name, sentence, pairs)
         if left.any():
-            faults.append(_unrecognised(answers, left, what))
-    return faults
-
-
-def _enter(faults: list[Fault], new: Fault) -> None:
-    """Add a fault; of one that is there by this name, the later sentence says more."""
-    for k, old in enumerate(faults):
-        if old.name == new.name:
-            faults[k] = replace(new, pairs=old.pairs + new.pairs)
-            return
-    faults.append(new)
-
-
-def _unrecognised(answers: TableAnswers, left: Mask, what: str) -> Fault:
-    names = list(answers.cases.subject.groups)
-    where = [names[g] for g in np.unique(answers.cases.group[left])]
-    text = f"some {what} are wrong for a reason that is not recognised: {', '.join(where)}"
-    return Fault(f"{UNRECOGNISED}{what.split()[-1]}", text, int(left.sum()))
+            where = [groups[g] for g in np.unique(answers.cases.group[left])]
+            text = f"some {what} are wrong for a reason that is not recognised: {', '.join(where)}"
+            name = f"{UNRECOGNISED}{what.split()[-1]}"
+            faults[name] = Fault(name, text, int(left.sum()))
+    return list(faults.values())
 
 
 def dependence(answers: TableAnswers, ask: Ask) -> list[Fault]:
@@ -139,7 +127,8 @@ def dependence(answers: TableAnswers, ask: Ask) -> list[Fault]:
         some = np.concatenate(
             [np.flatnonzero(cases.group == g)[:size] for g in np.unique(cases.group)]
         )
-        for first in _spread(len(some) // size) * size:
+        last = len(some) // size - 1
+        for first in np.unique(np.arange(CALLS) * last // (CALLS - 1)) * size:  # evenly spread
             rows = some[first : first + size]
             off = differs(
                 answers.table[rows],
@@ -158,13 +147,8 @@ def dependence(answers: TableAnswers, ask: Ask) -> list[Fault]:
     return []
 
 
-def _spread(count: int) -> NDArray[np.intp]:
-    """Return the numbers of CALLS things of so many, evenly spread."""
-    return np.unique(np.arange(CALLS) * (count - 1) // max(CALLS - 1, 1))
-
-
-def _again(cases: TableCases, ask: Ask, rows: NDArray[np.intp]) -> Floats:
+def _again(cases: TableCases, ask: Ask, rows: Places) -> Floats:
     """Return what is answered of some rows of the answers, (k, m); a case may have several."""
-    own, within = np.divmod(rows, len(cases.group) // len(cases.given[0]))
+    own, within = np.divmod(rows, cases.each)
     again = cases.subject.rows(*ask(*(array[own] for array in cases.given)))
-    return again[np.arange(len(rows)) * (len(again) // len(rows)) + within]
+    return again[np.arange(len(rows)) * cases.each + within]

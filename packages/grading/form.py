@@ -10,6 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from reference_tracer.arrays import Array, Floats
 
+Arrays = tuple[Floats, ...]  # what is given, or answered: one for each field
+
+
+def side_by_side(*arrays: Floats) -> Floats:
+    """Return arrays (n, ...) as rows of numbers, (n, m)."""
+    return np.concatenate([a.reshape(len(a), -1) for a in arrays], axis=1)
+
 
 @dataclass(frozen=True)
 class Field:
@@ -50,10 +57,9 @@ class Form:
 
     def question(self, arrays: Sequence[Array]) -> Floats:
         """Return what is given as lines of numbers, (n, columns) float64."""
-        parts = [np.asarray(a, np.float64).reshape(len(a), -1) for a in arrays]
-        return np.concatenate(parts, axis=1)
+        return side_by_side(*(np.asarray(a, np.float64) for a in arrays))
 
-    def answers(self, table: Floats) -> tuple[Floats, ...]:
+    def answers(self, table: Floats) -> Arrays:
         """Return lines of answers (n, numbers) as the arrays that they are."""
         ends = np.cumsum([field.size for field in self.answered])[:-1]
         parts = np.split(table, ends, axis=1)

@@ -8,16 +8,15 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from pathlib import PurePosixPath
 
 from reference_tracer.report.junit import Judged, junit
 
 from .judging import CHECKS
-from .report import Student
+from .report import Pages, Student
 from .tables import VERDICTS, wrong_names
 
-Pages = Sequence[tuple[Student, str]]
 Files = Iterator[tuple[str, str]]
 
 
@@ -27,15 +26,11 @@ def as_csv(pages: Pages) -> Files:
     table = csv.writer(text)
     table.writerow(("file", "score", "score_as_is", "verdict", "what is wrong"))
     for s, _ in pages:
-        wrong = ", ".join(wrong_names(s))
-        name = _as_text(s["file"])
-        table.writerow((name, s["score"], s["score_as_is"], s["verdict"], wrong))
+        name = s["file"]
+        if name.startswith(("=", "+", "-", "@", "\t", "\r")):
+            name = f"'{name}"  # so that a spreadsheet takes it for no formula
+        table.writerow((name, s["score"], s["score_as_is"], s["verdict"], wrong_names(s)))
     yield "judge.csv", text.getvalue()
-
-
-def _as_text(name: str) -> str:
-    """Return a name that a spreadsheet takes for no formula."""
-    return f"'{name}" if name.startswith(("=", "+", "-", "@", "\t", "\r")) else name
 
 
 def as_junit(pages: Pages) -> Files:
@@ -47,7 +42,7 @@ def as_junit(pages: Pages) -> Files:
 def _judged(s: Student, name: str, score: float, right: bool) -> Judged:
     if right:
         return Judged(name)
-    message = f"{score:.1f} of 100: {', '.join(wrong_names(s))}"
+    message = f"{score:.1f} of 100: {wrong_names(s)}"
     return Judged(name, message, "\n".join(_sentences(s)))
 
 

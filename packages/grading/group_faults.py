@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Bools, Floats
 
-from .programs import Mask, columns
+from .programs import columns
 
 if TYPE_CHECKING:
     from .cases import TableAnswers
@@ -23,7 +23,7 @@ LOSSY = 300  # of those: as far as ordinary cases may be off that were computed 
 LEAST = FLOAT32 / 64  # and as far as half of them are off at least
 
 # A fault's name, a sentence, the answers that it explains.
-Found = Iterator[tuple[str, str, Mask]]
+Found = Iterator[tuple[str, str, Bools]]
 
 
 class Tests(NamedTuple):
@@ -56,18 +56,16 @@ def whole_groups(a: TableAnswers) -> Found:
         ("misses", "missed", a.to_hit & ~a.hit),
         ("hits", "hit", a.hit & ~a.to_hit),
     ):
-        found = _groups(a, wrong & a.wrong)
-        for group in found:
+        for group in _groups(a, wrong & a.wrong):
             text = f"{a.cases.subject.groups[group]}: these are {what}, and should not be"
-            own = a.cases.group == list(a.cases.subject.groups).index(group)
-            yield f"{name}_{group}", text, wrong & own
+            yield f"{name}_{group}", text, wrong & a.cases.among(group)
 
 
-def _groups(a: TableAnswers, wrong: Mask) -> list[str]:
+def _groups(a: TableAnswers, wrong: Bools) -> list[str]:
     """Return the groups of which nearly all are wrong, if the others are nearly all right."""
     judged, out, rest = ~a.cases.doubt, [], np.zeros(len(wrong), bool)
-    for number, name in enumerate(a.cases.subject.groups):
-        own = (a.cases.group == number) & judged
+    for name in a.cases.subject.groups:
+        own = a.cases.among(name) & judged
         if own.any() and wrong[own].mean() > MOST:
             out.append(name)
         else:
@@ -97,9 +95,9 @@ def single(a: TableAnswers, share: str = "") -> Found:
 @np.errstate(all="ignore")
 def _off(a: TableAnswers, share: str) -> Floats:
     """Return how far numbers are off, relative to the largest that has a share in them, (n,)."""
-    right, parts = a.cases.right, a.cases.subject.parts
+    right = a.cases.right
     off = np.zeros(len(right))
-    for part, numbers in zip(parts, columns(parts), strict=True):
+    for part, numbers in columns(a.cases.subject.parts):
         if share in ("", part.name):
             by = np.abs(a.table[:, numbers] - right[:, numbers]).max(axis=1)
             by[by > 0] /= np.abs(right[by > 0, numbers]).max(axis=1)  # object 0 is no 0 / 0

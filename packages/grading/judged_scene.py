@@ -7,12 +7,10 @@ there a sound function has no excuse.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Array, Bools, Colors, Floats, Integers, Places
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.bounds import U, plane_fractions
 from reference_tracer.methods import Method
@@ -25,6 +23,7 @@ from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.nearest import plan, test_planes
 from reference_tracer.tracer.progress import Progress, Work, scaled
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.ties import Ties
 from reference_tracer.tracer.world import Pairs
 
 from .known import Known, known
@@ -50,33 +49,29 @@ class JudgedScene:
     rays: Rays  # (3, n) or (3, 1)
     pairs: list[Pairs]  # `pixel` numbers the n pixels
     planes: Hits  # the nearest infinite plane of each ray
-    color: NDArray[np.float32]  # (h, w, 4) certified
+    color: Colors  # (h, w, 4) certified
     t: Floats  # (n,) certified; inf: no hit
-    instance: NDArray[np.int32]
-    triangle: NDArray[np.int32]
-    ties: dict[int, frozenset[tuple[int, int]]]
-    ambiguous: NDArray[np.bool_]  # (n,) the ray meets an edge or two surfaces exactly
-    near_edge: NDArray[np.bool_]  # (n,) it passes within float64's reach of an edge
-    near_tie: NDArray[np.bool_]  # (n,) two surfaces are within float64's reach of one another
+    instance: Integers
+    triangle: Integers
+    chosen: Places  # (n,) the pixels' numbers in the camera's region
+    ties: Ties  # by these numbers
+    ambiguous: Bools  # (n,) the ray meets an edge or two surfaces exactly
+    near_edge: Bools  # (n,) it passes within float64's reach of an edge
+    near_tie: Bools  # (n,) two surfaces are within float64's reach of one another
     camera_options: tuple[str, ...] = ()  # those of the command line that placed its camera
 
     @property
-    def boundary(self) -> NDArray[np.bool_]:
+    def boundary(self) -> Bools:
         """Which pixels sound float64 may have otherwise, (n,)."""
         return self.ambiguous | self.near_edge | self.near_tie
 
     def position(self, pixel: int) -> tuple[int, int]:
         """Return x and y of one of the n pixels in the camera's region, from its lower left."""
-        y, x = divmod(pixel, self.shape[1])
-        return self.first + x * self.stride, self.first + y * self.stride
-
-    def questions(self) -> Iterator[tuple[Pairs, NDArray, NDArray, NDArray]]:
-        """Yield pairs with origins (p, 3), directions (p, 3) and triangles (p, 3, 3)."""
-        for some in self.pairs:
-            yield some, *arrays(self.rays, some.pixel, some.corners)
+        y, x = divmod(int(self.chosen[pixel]), self.scene.camera.region.width)
+        return x, y
 
 
-def arrays(rays: Rays, pixel: NDArray, corners: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+def arrays(rays: Rays, pixel: Array, corners: Array) -> tuple[Array, Array, Array]:
     """Return origins, directions and triangles (corner, component, pair) as students have them."""
     own = rays.take(pixel)
     o, d = (np.broadcast_to(v, (3, len(pixel))).T for v in (own.origins, own.directions))
@@ -123,7 +118,6 @@ def prepare(
     rays = camera_rays(scene.camera, *film_positions(region, pixel=chosen))
     planes = Hits.none(len(chosen))
     test_planes(scene, rays, planes)
-    tied = set(frame.ties)
     judged = JudgedScene(
         name,
         source or name,
@@ -138,21 +132,22 @@ def prepare(
         frame.t.ravel()[chosen],
         frame.instance_index.ravel()[chosen],
         frame.triangle_index.ravel()[chosen],
-        {k: frame.ties[p] for k, p in enumerate(chosen.tolist()) if p in tied},
+        chosen,
+        frame.ties,
         frame.certainty.ravel()[chosen] == Certainty.AMBIGUOUS,
         np.zeros(len(chosen), bool),
         _near_planes(scene, rays, frame.t.ravel()[chosen], planes),
         camera_options,
     )
-    yield from _find_pairs(judged, chosen)
+    yield from _find_pairs(judged)
     return judged
 
 
-def _find_pairs(judged: JudgedScene, chosen: NDArray) -> Work[None]:
+def _find_pairs(judged: JudgedScene) -> Work[None]:
     scene = judged.scene
     region = scene.camera.region
     wanted = np.zeros(region.width * region.height, bool)
-    wanted[chosen] = True
+    wanted[judged.chosen] = True
     made = yield from plan(scene, Settings(Method.CERTIFIED), reach=0.0)
     for share, own in candidates(made, region, wanted):
         if own is not None and len(own.pixel):
@@ -176,7 +171,7 @@ def _mark_boundary(judged: JudgedScene, some: Pairs, truth: Known) -> None:
     judged.near_tie[some.pixel[truth.hit & near & other]] = True
 
 
-def _near_planes(scene: Scene, rays: Rays, seen: NDArray, planes: Hits) -> NDArray[np.bool_]:
+def _near_planes(scene: Scene, rays: Rays, seen: Array, planes: Hits) -> Bools:
     """Return where an infinite plane is as near as what is seen, within rounding."""
     near = np.zeros(len(seen), bool)
     for p in scene.planes:

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 import numpy as np
@@ -19,9 +18,9 @@ from reference_tracer_processes.running import Limits
 
 from .cases import TableCases
 from .examples import find_examples
-from .external import Program, Run
+from .external import Code, Program, Run
 from .faults import Fault, dependence, find_faults, raising
-from .form import Form
+from .form import Arrays
 from .judged_scene import JudgedScene
 from .matching import Match
 from .names import distinct, numbered
@@ -56,7 +55,6 @@ class Judgement:
     edges: SharedEdges | None = None  # None: it failed before
     scenes: list[str] = field(default_factory=list)  # the names of all
     looks: list[Look] = field(default_factory=list)  # of those that were finished
-    examples: dict[str, list[WrongCase]] = field(default_factory=dict)  # by the scene's name
     errors: list[tuple[str, StudentError]] = field(default_factory=list)  # where, and what
     seconds: float = 0.0  # that the function itself has taken
     printed: int = 0  # bytes
@@ -105,7 +103,7 @@ class Judgement:
 
 
 def judge(
-    submission: Path | Run,
+    submission: Code,
     cases: TableCases,
     scenes: Sequence[JudgedScene] = (),
     limits: Limits | None = None,
@@ -131,7 +129,11 @@ def judge(
     """
     subject = cases.subject
     out = Judgement(name or names([submission])[0], subject, scenes=[s.name for s in scenes])
-    with _started(submission, subject.form, limits) as student:
+    with (
+        Program(submission, subject.form, limits)
+        if isinstance(submission, Run)
+        else Student(submission, subject.form, limits)
+    ) as student:
         if started is not None:
             started.append(student)
         try:
@@ -142,7 +144,7 @@ def judge(
         for k, scene in enumerate(scenes):
             share = 1 / len(scenes)
             yield from scaled(_on_scene(out, student, scene), k * share, share)
-        out.faults = [*out.faults, *raising(student)]
+        out.faults += raising(student)
         if not (out.faults or out.errors or all(t and t.all_right for t in out.tallies)):
             out.faults.append(in_scenes(out.looks))
         out.seconds = student.seconds
@@ -150,16 +152,13 @@ def judge(
     return out
 
 
-def _started(submission: Path | Run, form: Form, limits: Limits | None) -> Submission:
-    if isinstance(submission, Run):
-        return Program(submission, form, limits)
-    return Student(submission, form, limits)
+def names(submissions: Sequence[Code]) -> list[str]:
+    """Return what a reader calls each: its file's or folder's name, or a command; none twice.
 
-
-def names(submissions: Sequence[Path | Run]) -> list[str]:
-    """Return what a reader calls each: its file's or folder's name, or a command; none twice."""
-    paths = [s.own if isinstance(s, Run) else s for s in submissions]
-    files = iter(distinct([path for path in paths if path]))
+    A program lies in the last file or folder that its command names.
+    """
+    paths = [s.named[-1:] if isinstance(s, Run) else [s] for s in submissions]
+    files = iter(distinct([path for each in paths for path in each]))
     every = [
         printable(each.command) if isinstance(each, Run) and not path else next(files)
         for each, path in zip(submissions, paths, strict=True)
@@ -170,12 +169,13 @@ def names(submissions: Sequence[Path | Run]) -> list[str]:
 def _on_cases(out: Judgement, student: Submission, cases: TableCases) -> None:
     student.new_scene()
     rows = cases.subject.rows(*student.ask(*cases.given))
-    rows[np.repeat(student.raised, len(rows) // len(student.raised))] = -np.inf
+    rows[np.repeat(student.raised, cases.each)] = -np.inf
     raises = student.raises
     answers = cases.answers(rows)
     out.faults, out.alike = find_faults(answers)
     if depends := dependence(answers, student.ask):
-        out.faults, out.alike = [*out.faults, *depends], None
+        out.faults += depends
+        out.alike = None
     if cases.subject is TRIANGLE:
         out.edges = try_edges(student.ask)
     else:
@@ -189,9 +189,9 @@ def _on_cases(out: Judgement, student: Submission, cases: TableCases) -> None:
 def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[None]:
     student.new_scene()
 
-    mended: list[tuple[Floats, ...]] = []
+    mended: list[Arrays] = []
 
-    def ask(*rays: Floats) -> tuple[Floats, ...]:
+    def ask(*rays: Floats) -> Arrays:
         replies = student.ask(*rays)
         if out.alike:
             right = out.alike.put_right(TRIANGLE.letters(*rays), TRIANGLE.rows(*replies))
@@ -200,8 +200,7 @@ def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[N
 
     try:
         found = yield from look(scene, ask, lambda: student.seconds)
-        out.examples[scene.name] = find_examples(found, student.ask)
-        out.looks.append(found)
+        out.looks.append(replace(found, examples=find_examples(found, student.ask)))
         if out.alike:
             again = iter(mended)
             out.mended.append(result_of(look(scene, lambda *_: next(again))).tally)
@@ -211,7 +210,7 @@ def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[N
 
 
 def judge_all(
-    submissions: Mapping[str, Path | Run],
+    submissions: Mapping[str, Code],
     cases: TableCases,
     scenes: Sequence[JudgedScene] = (),
     limits: Limits | None = None,

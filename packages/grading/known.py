@@ -14,12 +14,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Bools, Floats
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.bounds import FromPoint, U
 from reference_tracer.tracer.camera import Rays
 
+from .form import Arrays
 from .subjects.triangle import SIGNED_VOLUMES, TRIANGLE, WEIGHTS
 from .truth import ROUNDINGS, bounded
 
@@ -28,7 +28,7 @@ LEAST = 2.0**-960  # of n . n: below it, products have lost digits at float64's 
 SOUND = *TRIANGLE.programs, SIGNED_VOLUMES
 
 # A student's function: origins, directions, triangles -> t, barycentrics.
-Ask = Callable[..., tuple[Floats, ...]]
+Ask = Callable[..., Arrays]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +39,8 @@ class Known:
     triangle; NaN where it is parallel to it.
     """
 
-    hit: NDArray[np.bool_]  # (n,) the certified ray meets the triangle, in the clip range
-    doubt: NDArray[np.bool_]  # (n,) sound float64 may say otherwise
+    hit: Bools  # (n,) the certified ray meets the triangle, in the clip range
+    doubt: Bools  # (n,) sound float64 may say otherwise
     t: Floats
     t_allowed: Floats  # (n,) how far an answer may be off; NaN or inf: as far as it likes
     s: Floats

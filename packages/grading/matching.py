@@ -13,15 +13,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property, reduce
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats
+from reference_tracer.arrays import Bools, Floats, Places
 
 from .cases import TableCases
 from .mutations import Mutation, mutations
-from .programs import Letters, Mask, Part, Program, columns
+from .programs import Letters, Parts, Program, columns
 
 DIGITS = 1e-9  # relative: two orders of summation of a wrong formula differ by far less
 FEW = 2e-3  # share of cases in which rounding may decide what a wrong program answers
@@ -56,17 +54,7 @@ class Match:
         return np.where(kept[:, None], replies, self.right.answers(asked))
 
 
-def with_one(cases: TableCases, replies: Floats) -> list[Match]:
-    """Return the wrong programs with one mutation that answer as a function did, (n, m)."""
-    return _found(cases, replies, _single)
-
-
-def with_two(cases: TableCases, replies: Floats) -> list[Match]:
-    """Return the wrong programs with two mutations that answer as a function did, (n, m)."""
-    return _found(cases, replies, _double)
-
-
-def alike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> bool:
+def alike(own: Floats, other: Floats, parts: Parts) -> bool:
     """Return whether a function answers as a program does, but for rounding.
 
     What a function gives beside the first part where it misses counts, too, if it gives any: of
@@ -77,8 +65,8 @@ def alike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> bool:
 
 
 def differs(
-    own: Floats, other: Floats, parts: tuple[Part, ...], digits: float, strictly: bool = True
-) -> Mask:
+    own: Floats, other: Floats, parts: Parts, digits: float, strictly: bool = True
+) -> Bools:
     """Return where a function answers otherwise than another, or than several, (..., n).
 
     Parameters
@@ -93,7 +81,7 @@ def differs(
     hit, also = np.isfinite(own[..., 0]), np.isfinite(other[..., 0])
     off = hit != also
     with np.errstate(all="ignore"):
-        for k, (part, numbers) in enumerate(zip(parts, columns(parts), strict=True)):
+        for k, (part, numbers) in enumerate(columns(parts)):
             size = np.maximum(part.least, _largest(other[..., numbers]))
             by = _largest(own[..., numbers] - other[..., numbers])
             if strictly:
@@ -104,7 +92,7 @@ def differs(
     return off
 
 
-def _unlike(own: Floats, other: Floats, parts: tuple[Part, ...]) -> NDArray[np.float64]:
+def _unlike(own: Floats, other: Floats, parts: Parts) -> Floats:
     """Return the share of cases that a function answers otherwise than some programs, (...)."""
     return differs(own, other, parts, DIGITS).mean(axis=-1)
 
@@ -115,36 +103,34 @@ def _largest(numbers: Floats) -> Floats:
     return reduce(np.maximum, (size[..., k] for k in range(size.shape[-1])))
 
 
-def _given(numbers: Floats) -> Mask:
+def _given(numbers: Floats) -> Bools:
     """Return where a function gives numbers at all: of a miss it may give anything."""
     size = _largest(numbers)
     return np.isfinite(size) & (size > 0)
 
 
-def _told(own: Floats, parts: tuple[Part, ...]) -> Mask:
-    told: Mask = np.isfinite(own[:, 0])
-    for numbers in columns(parts)[1:]:
+def _told(own: Floats, parts: Parts) -> Bools:
+    told: Bools = np.isfinite(own[:, 0])
+    for _, numbers in columns(parts)[1:]:
         told = told | _given(own[:, numbers])
     return told
 
 
-class _Known(NamedTuple):
-    """Wrong programs, and what each makes of a few cases, (p, few, m)."""
-
-    matches: list[Match]
-    replies: Floats
+# Wrong programs, and what each makes of a few cases, (p, few, m).
+_Known = tuple[list[Match], Floats]
 
 
-def _found(
+def matches(
     cases: TableCases, replies: Floats, programs: Callable[[TableCases], _Known]
 ) -> list[Match]:
+    """Return those of `singles` or `doubles` that answer as a function did, (n, m)."""
     own, parts = replies[cases.tells], cases.subject.parts
     if _told(own, parts).sum() < LEAST:
         return []
-    known = programs(cases)
-    near = _unlike(own[_few(cases)], known.replies, parts) <= NEARLY
+    known, theirs = programs(cases)
+    near = _unlike(own[_few(cases)], theirs, parts) <= NEARLY
     asked = _questions(cases)
-    return [known.matches[k] for k in np.flatnonzero(near) if known.matches[k].agrees(asked, own)]
+    return [known[k] for k in np.flatnonzero(near) if known[k].agrees(asked, own)]
 
 
 @cache
@@ -153,7 +139,7 @@ def _questions(cases: TableCases) -> Letters:
 
 
 @cache
-def _few(cases: TableCases) -> NDArray[np.intp]:
+def _few(cases: TableCases) -> Places:
     """Return which of the cases that tell are tried first."""
     group = cases.group[cases.tells]
     return np.concatenate([np.flatnonzero(group == g)[:EACH] for g in np.unique(group)])
@@ -171,25 +157,25 @@ def _known(cases: TableCases, matches: Iterable[Match]) -> _Known:
         if unlike > FEW * len(of_all) or not match.agrees(asked, of_all):
             found.append(match)
             replies.append(own)
-    return _Known(found, np.stack(replies))
+    return found, np.stack(replies)
 
 
 @cache
-def _single(cases: TableCases) -> _Known:
+def singles(cases: TableCases) -> _Known:
     """Return all wrong programs with one mutation; some mutations make no wrong one."""
     every = (Match(right, (m,)) for right in cases.subject.programs for m in mutations(right))
     return _known(cases, every)
 
 
 @cache
-def _double(cases: TableCases) -> _Known:
+def doubles(cases: TableCases) -> _Known:
     """Return wrong programs with two mutations; of those that few cases tell apart one is taken."""
-    known, parts = _single(cases), cases.subject.parts
+    known, replies = singles(cases)
     different: list[int] = []
-    for k, own in enumerate(known.replies):
-        if not (_unlike(own, known.replies[different], parts) == 0).any():
+    for k, own in enumerate(replies):
+        if (_unlike(own, replies[different], cases.subject.parts) > 0).all():
             different.append(k)
-    pairs = combinations([known.matches[k] for k in different], 2)
+    pairs = combinations([known[k] for k in different], 2)
     return _known(
         cases,
         (

@@ -14,7 +14,7 @@ def distinct(paths: Sequence[Path]) -> list[str]:
 
     What steers a terminal is spelt out: the names are not ours.
     """
-    parts = [Path(p).resolve().parts for p in paths]
+    parts = [p.resolve().parts for p in paths]
     ends = Counter(own[-k:] for own in set(parts) for k in range(1, len(own)))
     least = (
         next((own[-k:] for k in range(1, len(own)) if ends[own[-k:]] == 1), own) for own in parts
@@ -24,7 +24,7 @@ def distinct(paths: Sequence[Path]) -> list[str]:
 
 def stems(paths: Sequence[Path]) -> list[str]:
     """Return each file's name without its ending, where that tells it from the others."""
-    short, whole = [printable(Path(p).stem) for p in paths], distinct(paths)
+    short, whole = [printable(p.stem) for p in paths], distinct(paths)
     return [a if short.count(a) == 1 else b for a, b in zip(short, whole, strict=True)]
 
 

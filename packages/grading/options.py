@@ -15,7 +15,8 @@ from reference_tracer_processes.options import limits_of
 from reference_tracer_processes.running import Limits
 from reference_tracer_processes.sandbox import check_shown
 
-from .external import Run
+from .exchange import CSV
+from .external import Code, Run
 
 MEMORY = 2.0  # GiB, by default
 PIXELS = 20_000  # of a scene, by default: a function that loops over the rays takes some seconds
@@ -25,7 +26,7 @@ PIXELS = 20_000  # of a scene, by default: a function that loops over the rays t
 class JudgeOptions:
     """The options of `reftrace judge`."""
 
-    students: tuple[Path | Run, ...]
+    students: tuple[Code, ...]
     subject: str  # one of `subjects.NAMES`
     scenes: tuple[tuple[Path, Choice], ...]  # none for the exercise's own
     camera_options: tuple[str, ...]  # those that were given, as they are typed
@@ -98,7 +99,7 @@ def _runs(given: Namespace) -> list[Run]:
     runs = []
     for command in dict.fromkeys(given.programs or ()):
         try:
-            runs.append(Run.parsed(command, given.exchange or "csv"))
+            runs.append(Run.parsed(command, given.exchange or CSV))
             check_shown(runs[-1].words)
         except ValueError as error:
             raise SceneError(f"--run {command!r}: {error}") from error

@@ -11,29 +11,17 @@ from pathlib import Path
 from urllib.parse import quote
 
 import numpy as np
-from numpy.typing import NDArray
+from reference_tracer.arrays import Bytes
 from reference_tracer.files import png
 from reference_tracer.files.images import data_uri, to_display
 from reference_tracer.wording import count_of
 
 from .judging import Judgement
 from .picture import Look, Mark
-from .report import Student
+from .report import Pages
 from .student_error import StudentError
 from .subjects.subject import Subject
-from .tables import (
-    MARKS,
-    NO_BOUNDARY,
-    VERDICTS,
-    dashed,
-    explain,
-    head,
-    named,
-    put_right,
-    row,
-    tallies,
-    wrong_names,
-)
+from .tables import MARKS, VERDICTS, counts, explain, named, notes, put_right, wrong_names
 from .wrong_case import WrongCase
 
 _STYLE = Path(__file__).with_name("page.css")
@@ -62,7 +50,7 @@ def page(j: Judgement) -> str:
     return _whole(f"{j.name}, judged", [_student(j)])
 
 
-def class_page(pages: Sequence[tuple[Student, str]], title: str) -> str:
+def class_page(pages: Pages, title: str) -> str:
     """Return the teacher's page: a table of all students, with links to their pages.
 
     `title` is what the students' work is called, as "ray/triangle tests".
@@ -71,7 +59,7 @@ def class_page(pages: Sequence[tuple[Student, str]], title: str) -> str:
     for s, link in pages:
         name = f'<a href="{quote(link)}">{escape(s["file"])}</a>'
         verdict = _verdict(s["verdict"])
-        rows.append((name, f"{s['score']:.1f}", verdict, escape(", ".join(wrong_names(s)))))
+        rows.append((name, f"{s['score']:.1f}", verdict, escape(wrong_names(s))))
     table = _table(("file", "score", "verdict", "what is wrong"), rows, words=(0, 2, 3))
     warning = f'<p class="warning">{_WARNING}</p>'
     return _whole(f"Students’ {title}, judged", [warning, table])
@@ -124,11 +112,12 @@ def _student(j: Judgement) -> str:
     if j.printed:
         parts.append(f"<details><summary>It prints {count_of(j.printed, 'byte')}</summary>")
         parts.append(f"<pre>{escape(j.said)}</pre></details>")
-    if counts := tallies(j):
-        parts.append(_table(head(j.subject), [tuple(map(escape, row(*named))) for named in counts]))
-        parts += [f"<p>{NO_BOUNDARY}.</p>"] * dashed(counts)
+    if rows := counts(j):
+        names, *cells = rows
+        parts.append(_table(names, [tuple(map(escape, row)) for row in cells]))
+        parts += [f"<p>{note}.</p>" for note in notes(rows)]
     parts += [_wrong_case(j.subject, case) for case in j.wrong]
-    parts += [_scene(j.subject, found, j.examples[found.judged.name]) for found in j.looks]
+    parts += [_scene(j.subject, found) for found in j.looks]
     return "\n".join(parts)
 
 
@@ -160,7 +149,7 @@ def _listed(numbers: Sequence[float | None]) -> str:
     return ", ".join("no hit" if v is None else repr(v) for v in numbers)
 
 
-def _scene(subject: Subject, found: Look, wrong: Sequence[WrongCase]) -> str:
+def _scene(subject: Subject, found: Look) -> str:
     judged = found.judged
     pictures = (
         ("the student’s", to_display(found.color)),
@@ -182,11 +171,11 @@ def _scene(subject: Subject, found: Look, wrong: Sequence[WrongCase]) -> str:
     parts = [f"<h3>{escape(judged.name)}</h3>"]
     parts.append(f'<div class="pictures">{figures}</div>')
     parts.append(f"<p>{w} × {h} pixels{every}. {legend or 'All are right.'}</p>")
-    parts += [_wrong_case(subject, case, explain(judged, case)) for case in wrong]
+    parts += [_wrong_case(subject, case, explain(judged, case)) for case in found.examples]
     return "\n".join(parts)
 
 
-def marked(found: Look) -> NDArray[np.uint8]:
+def marked(found: Look) -> Bytes:
     """Return the map of marks over the dimmed certified picture, (h, w, 4) sRGB."""
     grey = to_display(found.judged.color)[..., :3].mean(axis=2, keepdims=True)
     out = np.full((*found.mark.shape, 4), 255, np.uint8)

@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from reference_tracer.arrays import Bools, Bytes, Colors
 from reference_tracer.tracer import shading
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.nearest import keep_nearest, within_clip
@@ -24,6 +23,7 @@ from .judged_scene import JudgedScene, arrays
 from .known import Ask, known
 from .subjects.triangle import TRIANGLE
 from .tally import Tally
+from .wrong_case import WrongCase
 
 
 class Mark(IntEnum):
@@ -52,11 +52,12 @@ class Look:
 
     judged: JudgedScene
     hits: Hits
-    color: NDArray[np.float32]  # (h, w, 4)
-    mark: NDArray[np.uint8]  # (h, w)
+    color: Colors  # (h, w, 4)
+    mark: Bytes  # (h, w)
     lost: int  # pixels that see another surface than they should, those on the boundary included
     tally: Tally
     seconds: float
+    examples: Sequence[WrongCase] = ()  # some of the wrong pixels
 
     @property
     def counts(self) -> dict[str, int]:
@@ -82,11 +83,11 @@ def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> W
         If the function fails.
     """
     began, count = clock(), len(judged.t)
-    reported = np.zeros(count, bool)  # the true triangle is said to be hit
-    raised = np.zeros(count, bool)
+    # The true triangle is said to be hit; a pair raises.
+    reported, raised = np.zeros((2, count), bool)
     hits = judged.planes.take(np.arange(count))
-    for done, (some, *question) in enumerate(judged.questions()):
-        t, s = ask(*question)
+    for done, some in enumerate(judged.pairs):
+        t, s = ask(*arrays(judged.rays, some.pixel, some.corners))
         raised[some.pixel[np.isneginf(t)]] = True
         hit = np.flatnonzero(np.isfinite(t) & within_clip(judged.scene.camera, t))
         pixel, instance, triangle = some.pixel[hit], some.instance[hit], some.triangle[hit]
@@ -109,65 +110,55 @@ def in_scenes(looks: Sequence[Look]) -> Fault:
 def _judged(
     judged: JudgedScene,
     hits: Hits,
-    reported: NDArray[np.bool_],
-    raised: NDArray[np.bool_],
+    reported: Bools,
+    raised: Bools,
     seconds: float,
 ) -> Look:
-    wrong = _wrong_surface(judged, hits) | raised
-    mark = np.full(len(wrong), Mark.RIGHT, np.uint8)
-    mark[wrong] = Mark.WRONG_ORDER
+    differs = (hits.instance != judged.instance) | (hits.triangle != judged.triangle)
+    wrong = differs & ~judged.ties.may_see(judged.chosen, hits.instance, hits.triangle) | raised
     missed = ~reported & (judged.triangle != NOTHING)
-    mark[wrong & missed] = Mark.MISSED
-    held = _held(judged, hits)
+    beside, right_t, right_s = _held(judged, hits)
     # What hides nothing nearer is no reason: the pixel is wrong for what is missed in front of it.
-    false = held.beside & ~(missed & (hits.t > judged.t))
-    shows = judged.instance != NOTHING
-    mark[wrong & false & shows] = Mark.FALSE_HIT_IN_FRONT
-    mark[wrong & false & ~shows] = Mark.FALSE_HIT
-    edge = judged.ambiguous | judged.near_edge
-    mark[wrong & edge] = Mark.EDGE
-    mark[wrong & judged.near_tie & ~edge] = Mark.DEPTH_TIE
-    mark[raised] = Mark.RAISED
-    on_triangle = (judged.triangle != NOTHING) | (hits.triangle != NOTHING) | raised
+    false = wrong & beside & ~(missed & (hits.t > judged.t))
     right = ~wrong & (hits.triangle != NOTHING)
     inside = right & ~judged.boundary
-    mark[inside & ~held.barycentrics] = Mark.WRONG_BARYCENTRICS
-    mark[inside & ~held.t] = Mark.WRONG_T
-    mark[inside & ~held.t & ~held.barycentrics] = Mark.WRONG_T_AND_BARYCENTRICS
-    parts = {"surface": ~wrong, "t": right & held.t, "barycentrics": right & held.barycentrics}
+    marks = {  # the first that holds
+        Mark.RAISED: raised,
+        Mark.EDGE: wrong & (judged.ambiguous | judged.near_edge),
+        Mark.DEPTH_TIE: wrong & judged.near_tie,
+        Mark.FALSE_HIT_IN_FRONT: false & (judged.instance != NOTHING),
+        Mark.FALSE_HIT: false,
+        Mark.MISSED: wrong & missed,
+        Mark.WRONG_ORDER: wrong,
+        Mark.WRONG_T_AND_BARYCENTRICS: inside & ~right_t & ~right_s,
+        Mark.WRONG_T: inside & ~right_t,
+        Mark.WRONG_BARYCENTRICS: inside & ~right_s,
+    }
+    mark = np.select([*marks.values()], [*marks], Mark.RIGHT).astype(np.uint8)
+    on_triangle = (judged.triangle != NOTHING) | (hits.triangle != NOTHING) | raised
+    parts = {"surface": ~wrong, "t": right & right_t, "barycentrics": right & right_s}
     tally = Tally.of(on_triangle, judged.boundary & ~raised, parts, TRIANGLE.weights)
     color = shading.colors(judged.scene, hits).reshape(judged.color.shape)
-    h, w = judged.shape
-    return Look(judged, hits, color, mark.reshape(h, w), int(wrong.sum()), tally, seconds)
+    mark = mark.reshape(judged.shape)
+    return Look(judged, hits, color, mark, int(wrong.sum()), tally, seconds)
 
 
-def _wrong_surface(judged: JudgedScene, hits: Hits) -> NDArray[np.bool_]:
-    wrong = (hits.instance != judged.instance) | (hits.triangle != judged.triangle)
-    for pixel in np.flatnonzero(wrong).tolist():
-        if may := judged.ties.get(pixel):
-            wrong[pixel] = (int(hits.instance[pixel]), int(hits.triangle[pixel])) not in may
-    return wrong
+def _held(judged: JudgedScene, hits: Hits) -> tuple[Bools, Bools, Bools]:
+    """Hold a picture's hits against the truth about the same pairs, (n,) each.
 
-
-class _Held(NamedTuple):
-    """A picture's hits, held against the truth about the same pairs, (n,) each."""
-
-    beside: NDArray[np.bool_]  # the ray does not meet the triangle that is shown
-    t: NDArray[np.bool_]  # it is right within rounding
-    barycentrics: NDArray[np.bool_]
-
-
-def _held(judged: JudgedScene, hits: Hits) -> _Held:
-    out = _Held(*np.zeros((3, len(hits)), bool))
+    Whether the ray does not meet the triangle that is shown; whether its t, and its barycentrics,
+    are right within rounding.
+    """
+    beside, right_t, right_s = np.zeros((3, len(hits)), bool)
     pixel = np.flatnonzero(hits.triangle != NOTHING)
     camera = judged.scene.camera
     corners = world_corners(judged.scene, hits.instance[pixel], hits.triangle[pixel])
     pairs = arrays(judged.rays, pixel, corners)
     truth = known(*pairs, camera.clip_start, camera.clip_end)
-    out.beside[pixel] = ~truth.hit
+    beside[pixel] = ~truth.hit
     with np.errstate(invalid="ignore"):  # a student's NaN is wrong
         t_off = np.abs(hits.t[pixel] - truth.t)
         s_off = np.abs(hits.s[:, pixel].T - truth.s).max(axis=1)
-        out.t[pixel] = (t_off <= truth.t_allowed) | ~np.isfinite(truth.t_allowed)
-        out.barycentrics[pixel] = (s_off <= truth.s_allowed) | ~np.isfinite(truth.s_allowed)
-    return out
+        right_t[pixel] = (t_off <= truth.t_allowed) | ~np.isfinite(truth.t_allowed)
+        right_s[pixel] = (s_off <= truth.s_allowed) | ~np.isfinite(truth.s_allowed)
+    return beside, right_t, right_s

@@ -14,11 +14,9 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats, Index
+from reference_tracer.arrays import Bools, Floats, Index
 from reference_tracer.derivation.expressions import Tree, evaluate, parse, printed
 
-Mask = NDArray[np.bool_]
 COMPARISONS: dict[str, Callable[[Any, Any], Any]] = {
     ">": operator.gt,
     "<": operator.lt,
@@ -27,7 +25,7 @@ COMPARISONS: dict[str, Callable[[Any, Any], Any]] = {
 }
 CONSTANTS = {"0": 0.0, "½": 0.5, "1": 1.0, "2": 2.0}
 # Which of the objects that are hit is taken, by t (n, k) and where each is hit.
-CHOICES: dict[str, Callable[[Floats, Mask], Index]] = {
+CHOICES: dict[str, Callable[[Floats, Bools], Index]] = {
     "nearest": lambda t, hit: np.where(hit, t, np.inf).argmin(axis=1),
     "farthest": lambda t, hit: np.where(hit, t, -np.inf).argmax(axis=1),
     "first": lambda t, hit: hit.argmax(axis=1),
@@ -45,6 +43,10 @@ class Condition(NamedTuple):
 
     def __str__(self) -> str:
         return f"{printed(self.left)} {self.comparison} {self.right}"
+
+    def holds(self, names: Mapping[str, Any]) -> Any:
+        """Return whether it holds of numbers, or arrays of them, by their names."""
+        return COMPARISONS[self.comparison](evaluate(self.left, names), names[self.right])
 
 
 def condition(text: str) -> Condition:
@@ -77,12 +79,27 @@ class Part(NamedTuple):
     unit: bool = False
 
 
+Parts = tuple[Part, ...]
+Named = dict[str, Any]  # numbers and vectors of one arithmetic, or arrays of them, by name
+
+
 @dataclass(frozen=True, eq=False)
 class Letters:
     """The inputs of formulas, by name: numbers of a shape (n, ...), vectors (3, n, ...)."""
 
     values: Mapping[str, Floats]
     shape: tuple[int, ...]
+
+    def each(self, of: Callable[[Floats], Any]) -> Named:
+        """Return what a function makes of each number, and of each component of a vector.
+
+        The constants are among them.
+        """
+        found = {name: of(np.array(value)) for name, value in CONSTANTS.items()}
+        for name, value in self.values.items():
+            is_number = value.ndim == len(self.shape)
+            found[name] = of(value) if is_number else np.array([of(v) for v in value], object)
+        return found
 
     def take(self, rows: Index) -> Letters:
         """Return those of some of the n."""
@@ -101,7 +118,7 @@ class Program:
     formulas: Mapping[str, Tree]
     conditions: tuple[Condition, ...]
     kinds: tuple[frozenset[str], ...]  # letters that may stand in one another's place
-    parts: tuple[Part, ...]
+    parts: Parts
     slips: tuple[Slip, ...] = field(default=(), repr=False)
     choice: str = ""
 
@@ -111,7 +128,7 @@ class Program:
         formulas: Mapping[str, str],
         conditions: tuple[str, ...],
         kinds: tuple[str, ...],
-        parts: tuple[Part, ...],
+        parts: Parts,
         slips: tuple[Slip, ...] = (),
         choice: str = "",
     ) -> Program:
@@ -125,16 +142,27 @@ class Program:
             choice,
         )
 
+    def computed(self, letters: Mapping[str, Any]) -> Named:
+        """Return all numbers and vectors by their names, those of the letters included.
+
+        Raises
+        ------
+        ZeroDivisionError
+            If a fraction is divided by 0.
+        """
+        names = dict(letters)
+        for label, right in self.formulas.items():
+            names[label] = evaluate(right, names)
+        return names
+
     @np.errstate(all="ignore")
     def answers(self, letters: Letters) -> Floats:
         """Return the numbers of the parts (n, m); the first is not finite where nothing is hit."""
-        names: dict[str, Any] = {**CONSTANTS, **letters.values}
-        for label, right in self.formulas.items():
-            names[label] = evaluate(right, names)
+        names = self.computed(CONSTANTS | dict(letters.values))
         if self.conditions or self.choice:
             hit = np.isfinite(np.broadcast_to(names["t"], letters.shape))
-            for left, comparison, bound in self.conditions:
-                hit = hit & COMPARISONS[comparison](evaluate(left, names), names[bound])
+            for each in self.conditions:
+                hit = hit & each.holds(names)
             names["t"] = np.where(hit, names["t"], np.inf)
             if self.choice:
                 names |= chosen(self.choice, names["t"], hit)
@@ -142,13 +170,13 @@ class Program:
         numbers = [names[label] for part in self.parts for label in part.labels]
         rows = [np.broadcast_to(v, (*v.shape[:-1], count)).reshape(-1, count) for v in numbers]
         out = np.concatenate(rows).T
-        for part, place in zip(self.parts, columns(self.parts), strict=True):
+        for part, place in columns(self.parts):
             if part.unit:
                 out[:, place] = unit(out[:, place])
         return out
 
 
-def chosen(choice: str, t: Floats, hit: Mask) -> dict[str, Floats]:
+def chosen(choice: str, t: Floats, hit: Bools) -> dict[str, Floats]:
     """Return t (n,) of the object that is taken, and its number; where none is hit inf and 0.
 
     What a picture shows is its number, and infinite where none is hit.
@@ -165,12 +193,12 @@ def chosen(choice: str, t: Floats, hit: Mask) -> dict[str, Floats]:
 
 @np.errstate(all="ignore")
 def unit(vectors: Floats) -> Floats:
-    """Return vectors (n, 3) with a length of 1."""
-    out: Floats = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    """Return vectors (..., 3) with a length of 1."""
+    out: Floats = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
     return out
 
 
-def columns(parts: tuple[Part, ...]) -> list[slice]:
-    """Return where each part's numbers stand in an answer."""
+def columns(parts: Parts) -> list[tuple[Part, slice]]:
+    """Return each part, and where its numbers stand in an answer."""
     ends = np.cumsum([0, *(part.size for part in parts)]).tolist()
-    return [slice(*pair) for pair in pairwise(ends)]
+    return [(part, slice(*pair)) for part, pair in zip(parts, pairwise(ends), strict=True)]

@@ -8,14 +8,13 @@ from typing import Any
 
 from .judging import Judgement
 from .picture import Look
-from .student_error import StudentError
 from .subjects.subject import Subject
 from .tables import explain
-from .tally import Tally
 
 SCHEMA = "reference_tracer.judge/1"
 
 Student = dict[str, Any]  # what the JSON has of one
+Pages = Sequence[tuple[Student, str]]  # several, with the paths of their pages
 
 _UNITS = {
     "score": "0 to 100: score_as_is, or what the file would get with its mistakes put right, less "
@@ -54,24 +53,16 @@ def student(j: Judgement) -> Student:
         "seconds": round(j.seconds, 6),
         "printed_bytes": j.printed,
         "printed": j.said,
-        "errors": [_error(where, error) for where, error in j.errors],
+        "errors": [{"where": where} | error.to_dict() for where, error in j.errors],
         "faults": [asdict(fault) for fault in j.faults],
         "shared_edges": asdict(j.edges) if j.edges else None,
-        "checks": _tally(j.checks),
+        "checks": j.checks.to_dict() if j.checks else None,
         "wrong_cases": [asdict(case) for case in j.wrong],
-        "scenes": [_scene(j, found) for found in j.looks],
+        "scenes": [_scene(found) for found in j.looks],
     }
 
 
-def _error(where: str, error: StudentError) -> dict[str, Any]:
-    return {"where": where} | error.to_dict()
-
-
-def _tally(tally: Tally | None) -> dict[str, Any] | None:
-    return tally.to_dict() if tally else None
-
-
-def _scene(j: Judgement, found: Look) -> dict[str, Any]:
+def _scene(found: Look) -> dict[str, Any]:
     judged = found.judged
     height, width = judged.shape
     return {
@@ -84,5 +75,5 @@ def _scene(j: Judgement, found: Look) -> dict[str, Any]:
         "seconds": round(found.seconds, 6),
         "pixels": found.counts,
         "tally": found.tally.to_dict(),
-        "examples": [asdict(e) | {"explain": explain(judged, e)} for e in j.examples[judged.name]],
+        "examples": [asdict(e) | {"explain": explain(judged, e)} for e in found.examples],
     }

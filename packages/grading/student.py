@@ -21,7 +21,7 @@ from typing import IO
 import numpy as np
 from reference_tracer.arrays import Floats
 from reference_tracer_processes.running import KEPT, Limits, how, kill
-from reference_tracer_processes.sandbox import kept_in
+from reference_tracer_processes.sandbox import kept_in, limited
 
 from .form import Form
 from .student_error import StudentError, parsed
@@ -30,6 +30,15 @@ from .submission import Submission
 _LONGEST = 1 << 20  # bytes of a line that answers
 
 _CHILD = Path(__file__).with_name("child.py")
+_OWN = {  # of its environment
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "PYTHONHASHSEED": "0",
+    "PYTHONIOENCODING": "utf-8",
+    "PYTHONDONTWRITEBYTECODE": "1",
+    "PYTHONUNBUFFERED": "1",  # what is printed is there when it is ended
+}
 
 
 class Student(Submission):
@@ -39,21 +48,20 @@ class Student(Submission):
 
     def __init__(self, path: Path, form: Form, limits: Limits | None = None) -> None:
         super().__init__(form, limits)
-        self.path = Path(path).resolve()
+        self.path = path.resolve()
 
     def _answered(self, question: Floats) -> Floats:
-        count = len(question)
         with self._watched() as (to, back):
-            head = {"count": count, "seconds": self._left}
+            head = {"count": len(question), "seconds": self._left}
             to.write(json.dumps(head).encode() + b"\n")
-            to.write(memoryview(np.ascontiguousarray(question)).cast("B"))
+            to.write(question.tobytes())
             to.flush()
-            error = self._answer(back)
-            size = 0 if error else 8 * count * self.form.numbers
-            found = np.frombuffer(_read(back, size)).reshape(-1, self.form.numbers)
-        if error:
-            raise error
-        return found
+            self._hear(back)
+            size = 8 * len(question) * self.form.numbers
+            numbers = back.read(size)
+            if len(numbers) < size:
+                raise EOFError
+            return np.frombuffer(numbers).reshape(-1, self.form.numbers)
 
     def end(self) -> None:
         """End the process, and what it has started, but for what has a session of its own."""
@@ -62,41 +70,32 @@ class Student(Submission):
             return
         kill(process)
         process.wait()
-        assert process.stdin and process.stdout and process.stderr
+        assert process.stdin and process.stdout
         for stream in (process.stdin, process.stdout):
             with suppress(OSError):
                 stream.close()
         self._reader.join(1.0)
 
     def _begin(self) -> None:
-        if self._process is None:
-            self._start()
-
-    def _start(self) -> None:
-        own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
-        own |= {"PYTHONHASHSEED": "0", "PYTHONIOENCODING": "utf-8", "PYTHONDONTWRITEBYTECODE": "1"}
-        own["PYTHONUNBUFFERED"] = "1"  # what is printed is there when it is ended
-        memory = str(self.limits.memory)
-        words = [sys.executable, "-P", str(_CHILD), str(self.path), memory, self.form.to_json()]
+        if self._process:
+            return
+        words = [sys.executable, "-P", str(_CHILD), str(self.path), self.form.to_json()]
         libraries = Path(sys.base_prefix), Path(sys.prefix), Path(np.__file__).parents[1]
         process = subprocess.Popen(
-            kept_in(words, None, own, self.path.parent, libraries),
+            kept_in(words, None, _OWN, self.path.parent, libraries),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             cwd=self.path.parent,
-            env=os.environ | own,
+            env=os.environ | _OWN,
             start_new_session=True,  # Ctrl-C is for this process, which ends that one
+            **limited(self.limits.memory),
         )
         self._runs(process)
-        self._reader = threading.Thread(target=self._listen, args=(process.stderr,))
-        self._reader.daemon = True
+        self._reader = threading.Thread(target=self._listen, args=(process.stderr,), daemon=True)
         self._reader.start()
         with self._watched() as (_, back):
-            error = self._answer(back)
-        if error:
-            self.end()
-            raise error
+            self._hear(back)
 
     def _listen(self, stream: IO[bytes]) -> None:
         """Read all that is printed, so that nobody waits for it, and keep the first of it."""
@@ -124,6 +123,9 @@ class Student(Submission):
         try:
             yield process.stdin, process.stdout
             well = True
+        except StudentError as error:
+            well = error.kind == self.raising  # it may be asked again
+            raise
         except (EOFError, OSError) as error:
             code = process.wait()
             if late.is_set():
@@ -138,31 +140,23 @@ class Student(Submission):
             if not well:
                 self.end()
 
-    def _answer(self, back: IO[bytes]) -> StudentError | None:
-        """Note the seconds that an answer has taken, and return the error that it is, if any.
+    def _hear(self, back: IO[bytes]) -> None:
+        """Read the head of an answer, and note the seconds that it has taken.
 
         Raises
         ------
         StudentError
-            If it is another than that of what may be asked again.
+            If the answer is one.
         """
         line = back.readline(_LONGEST)
         if not line.endswith(b"\n") and len(line) < _LONGEST:
             raise EOFError
         try:
-            seconds, found = parsed(line, self.limits.memory)
+            seconds, wrong = parsed(line, self.limits.memory)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             text = "its process answered something that is no answer: does the file write to other"
             text += " streams than the standard ones, or change numpy or json?"
             raise StudentError("ended", text) from error
-        if found and found.kind != self.raising:
-            raise found
         self.seconds += seconds
-        return found
-
-
-def _read(stream: IO[bytes], size: int) -> bytes:
-    data = stream.read(size)
-    if len(data) < size:
-        raise EOFError
-    return data
+        if wrong:
+            raise wrong

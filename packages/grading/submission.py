@@ -8,12 +8,11 @@ from collections import deque
 from typing import NamedTuple, Self
 
 import numpy as np
-from reference_tracer.arrays import Array, Floats
+from reference_tracer.arrays import Array, Bools, Floats
 from reference_tracer.wording import printable
 from reference_tracer_processes.running import Limits, kill
 
-from .form import Form
-from .programs import Mask
+from .form import Arrays, Form
 from .student_error import StudentError
 
 MOST = 0.75  # share of cases: what raises in more of them raises whatever it is asked
@@ -39,8 +38,8 @@ class Submission(ABC):
         self.printed = 0  # bytes
         self._said = b""
         self._left = self.limits.seconds
-        self.raised: Mask = np.zeros(0, bool)  # which cases of the last question raise, (n,)
-        self.first: tuple[StudentError, tuple[Floats, ...]] | None = None  # that, and its case
+        self.raised: Bools = np.zeros(0, bool)  # which cases of the last question raise, (n,)
+        self.first: tuple[StudentError, Arrays] | None = None  # that, and its case
         self.raises = 0  # how many cases have
         self.unasked = 0  # of these in groups: too many raise to ask each by itself
         self._has_answered = False
@@ -62,7 +61,7 @@ class Submission(ABC):
         """Let the time limit begin anew."""
         self._left = self.limits.seconds
 
-    def ask(self, *given: Array) -> tuple[Floats, ...]:
+    def ask(self, *given: Array) -> Arrays:
         """Return what it answers to n cases: the arrays of its form, (n, ...) each.
 
         Raises

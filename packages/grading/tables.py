@@ -16,7 +16,6 @@ from reference_tracer.wording import count_of
 from .judged_scene import JudgedScene
 from .judging import CHECKS, Judgement
 from .picture import EXCUSED, Mark
-from .subjects.subject import Subject
 from .tally import COST, Tally
 from .wrong_case import WrongCase
 
@@ -69,9 +68,8 @@ def lines(j: Judgement) -> list[str]:
     if j.printed:
         first = j.said.strip().splitlines()[:1]
         out.append(f"  it prints ({count_of(j.printed, 'byte')}): {' '.join(first)[:120]}")
-    if found := tallies(j):
-        out += ["", *columns([head(j.subject), *(row(*named) for named in found)])]
-        out += [NO_BOUNDARY] * dashed(found)
+    if rows := counts(j):
+        out += ["", *columns(rows), *notes(rows)]
     out += _wrong_pixels(j)
     return out
 
@@ -88,24 +86,20 @@ def put_right(j: Judgement) -> str:
     return f"{j.as_is:.1f} as it is: with {mistakes} put right {rest}, less {COST:g} for each"
 
 
-def tallies(j: Judgement) -> list[tuple[str, Tally]]:
-    """Return the counts of what was finished, by name."""
-    named = [(CHECKS, j.checks)] if j.checks else []
-    return named + [(k.judged.name, k.tally) for k in j.looks]
+def counts(j: Judgement) -> list[tuple[str, ...]]:
+    """Return a table of the counts of what was finished, its head first; empty if nothing was."""
+    found = [(CHECKS, j.checks)] if j.checks else []
+    found += [(k.judged.name, k.tally) for k in j.looks]
+    head = "", "counted", *j.subject.weights, "boundary", "score"
+    return [head, *(_row(*each) for each in found)] if found else []
 
 
-def dashed(found: Sequence[tuple[str, Tally]]) -> bool:
-    """Return whether a row has no boundary, so that a reader wants to know what that means."""
-    return not all(tally.boundary for _, tally in found)
+def notes(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return what a reader wants to know of a table of counts: what no boundary means."""
+    return [NO_BOUNDARY] if any(border == "-" for *_, border, _ in rows) else []
 
 
-def head(subject: Subject) -> tuple[str, ...]:
-    """Return the names of the columns of a table of counts."""
-    return "", "counted", *subject.weights, "boundary", "score"
-
-
-def row(name: str, tally: Tally) -> tuple[str, ...]:
-    """Return the cells of one row below the head."""
+def _row(name: str, tally: Tally) -> tuple[str, ...]:
     border = f"{tally.boundary_right:,} of {tally.boundary:,}" if tally.boundary else "-"
     if not tally.total:
         return name, "0", *("-" for _ in tally.shares), border, "-"
@@ -123,10 +117,7 @@ def _wrong_pixels(j: Judgement) -> list[str]:
         ]
         if counts:
             out += ["", f"{found.judged.name}: {'; '.join(counts)}"]
-            out += [
-                f"  {named(e)}: {explain(found.judged, e)}"
-                for e in _one_each(j.examples[found.judged.name])
-            ]
+            out += [f"  {named(e)}: {explain(found.judged, e)}" for e in _one_each(found.examples)]
     return out
 
 
@@ -142,15 +133,15 @@ def named(case: WrongCase) -> str:
     return f"{case.pixel} {case.object}, {MARKS[Mark[case.group.upper()]]}"
 
 
-def wrong_names(s: Mapping[str, Any]) -> list[str]:
+def wrong_names(s: Mapping[str, Any]) -> str:
     """Return the names of what is wrong with a student, as `judge.json` has him, each once."""
-    return list(dict.fromkeys([e["kind"] for e in s["errors"]] + [f["name"] for f in s["faults"]]))
+    names = [e["kind"] for e in s["errors"]] + [f["name"] for f in s["faults"]]
+    return ", ".join(dict.fromkeys(names))
 
 
 def class_table(students: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return a row for each of several students, as `judge.json` has them."""
     rows = [("file", "score", "verdict", "what is wrong")]
     for s in students:
-        wrong = ", ".join(wrong_names(s))
-        rows.append((s["file"], f"{s['score']:.1f}", VERDICTS[s["verdict"]], wrong))
+        rows.append((s["file"], f"{s['score']:.1f}", VERDICTS[s["verdict"]], wrong_names(s)))
     return columns(rows, left=(0, 2, 3))

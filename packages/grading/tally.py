@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from .programs import Mask
+from reference_tracer.arrays import Bools
 
 # What each mistake costs, of 100, where they are all that is wrong with a file.
 COST = 20.0
@@ -30,7 +30,11 @@ class Tally:
 
     @classmethod
     def of(
-        cls, counted: Mask, boundary: Mask, right: Mapping[str, Mask], weights: Mapping[str, float]
+        cls,
+        counted: Bools,
+        boundary: Bools,
+        right: Mapping[str, Bools],
+        weights: Mapping[str, float],
     ) -> Tally:
         """Count: of those `counted`, which have each part right."""
         first, *_ = right.values()

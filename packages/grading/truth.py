@@ -10,108 +10,84 @@ which float64 rounds nothing.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any, NamedTuple
 
 import numpy as np
-from reference_tracer.arrays import Array, Floats
+from reference_tracer.arrays import Bools, Floats
 from reference_tracer.certified.bounds import U
 from reference_tracer.derivation.expressions import evaluate
 
 from .bounded import Bounded
-from .programs import COMPARISONS, CONSTANTS, Letters, Mask, Program, chosen, columns, unit
+from .programs import COMPARISONS, CONSTANTS, Letters, Named, Program, chosen, columns, unit
 
 ROUNDINGS = 16  # how far a sound formula may be off, for each of those of a right program
 
 
-class Truth(NamedTuple):
-    """Right answers (n, m), how far others may be off, and where it is in doubt, (n,)."""
-
-    right: Floats
-    allowed: Floats
-    doubt: Mask
-
-
 @np.errstate(all="ignore")
-def truth(program: Program, letters: Letters, whole: Mask) -> Truth:
-    """Return what is true by a right program; float64 rounds nothing in `whole` cases (n,)."""
+def truth(program: Program, letters: Letters, whole: Bools) -> tuple[Floats, Floats, Bools]:
+    """Return right answers (n, m), how far others may be off, and where it is in doubt, (n,).
+
+    Parameters
+    ----------
+    program : Program
+        A right one.
+    letters : Letters
+    whole : (n,) bool
+        Cases of a program without a choice in which float64 rounds nothing.
+    """
     names = bounded(program, letters)
+    doubt = np.zeros(letters.shape, bool)
     if program.conditions:
-        hit, doubt = _hits(program, letters, names, whole)
+        hit, doubt = _hits(program, letters, names)
         if program.choice:
-            doubt = _take(program.choice, names, hit, doubt, whole)
+            doubt = _take(program.choice, names, hit, doubt)
         else:
             names["t"] = Bounded(np.where(hit, names["t"].value, np.inf), names["t"].error)
-    else:
-        doubt = np.zeros(letters.shape, bool)
     count = letters.shape[0]
-    numbers = [n for part in program.parts for label in part.labels for n in _rows(names[label])]
+    numbers = [n for part in program.parts for label in part.labels for n in np.ravel(names[label])]
     right, error = (
-        np.stack([np.broadcast_to(np.asarray(getattr(n, kind)), count) for n in numbers], axis=1)
+        np.stack([np.broadcast_to(getattr(n, kind), count) for n in numbers], axis=1)
         for kind in ("value", "error")
     )
     allowed = ROUNDINGS * U * error
-    for part, place in zip(program.parts, columns(program.parts), strict=True):
+    for part, place in columns(program.parts):
         if part.unit:
             size = np.linalg.norm(right[:, place], axis=1, keepdims=True)
             right[:, place] = unit(right[:, place])
             allowed[:, place] = 2 * allowed[:, place].max(axis=1, keepdims=True) / size
-    return Truth(
-        right, allowed, doubt | ~np.isfinite(allowed).all(axis=1) & np.isfinite(right[:, 0])
-    )
+    is_unbounded = ~np.isfinite(allowed).all(axis=1) & np.isfinite(right[:, 0])
+    return right, allowed, doubt & ~whole | is_unbounded
 
 
-def _rows(value: Any) -> list[Bounded]:
-    return [value] if isinstance(value, Bounded) else list(value)
-
-
-def bounded(program: Program, letters: Letters) -> dict[str, Any]:
+def bounded(program: Program, letters: Letters) -> Named:
     """Return all of a program's numbers as `Bounded`, vectors as arrays of three."""
-    names: dict[str, Any] = {name: Bounded.of(value) for name, value in CONSTANTS.items()}
-    for name, value in letters.values.items():
-        if value.ndim == len(letters.shape):
-            names[name] = Bounded.of(value)
-        else:
-            names[name] = _vector([Bounded.of(component) for component in value])
-    for label, right in program.formulas.items():
-        names[label] = evaluate(right, names)
-    return names
+    return program.computed(letters.each(Bounded.of))
 
 
-def _vector(components: list[Any]) -> Array:
-    out = np.empty(3, object)
-    out[:] = components
-    return out
-
-
-def _hits(
-    program: Program, letters: Letters, names: Mapping[str, Any], whole: Mask
-) -> tuple[Mask, Mask]:
+def _hits(program: Program, letters: Letters, names: Named) -> tuple[Bools, Bools]:
     """Return where all conditions hold, and where that is in doubt, in the letters' shape."""
-    hit, certain = np.isfinite(names["t"].value), np.ones(letters.shape, bool)
-    missed = np.zeros(letters.shape, bool)  # for certain
+    hit = np.isfinite(names["t"].value)
+    missed, unsure = np.zeros((2, *letters.shape), bool)  # missed for certain
     for left, comparison, limit in program.conditions:
         found = evaluate(left, names)
         holds = COMPARISONS[comparison](found.value, CONSTANTS[limit])
         far = np.abs(found.value - CONSTANTS[limit]) > ROUNDINGS * U * found.error
         missed |= ~holds & far
-        certain &= far
+        unsure |= ~far
         hit = hit & holds
-    unsure = ~certain & ~missed
+    unsure &= ~missed
     for where in np.argwhere(unsure):
         hit[tuple(where)] = exact_hit(program, letters, tuple(where))
-    shape = (-1, *(1,) * (len(letters.shape) - 1))
-    return hit, unsure & ~whole.reshape(shape)
+    return hit, unsure
 
 
-def _take(choice: str, names: dict[str, Any], hit: Mask, doubt: Mask, whole: Mask) -> Mask:
+def _take(choice: str, names: Named, hit: Bools, doubt: Bools) -> Bools:
     """Take one of the objects that are hit, and return where that is in doubt, (n,).
 
     An object that is missed by a rounding is a rival, too, by the t at which it would be hit.
     """
     t = names["t"].value
-    allowed = np.where(whole[:, None], 0, ROUNDINGS * U * names["t"].error)
+    allowed = ROUNDINGS * U * names["t"].error
     taken = chosen(choice, t, hit)
     which = taken["owner"].astype(int)[:, None]
     most = taken["t"][:, None] + np.take_along_axis(allowed, which, axis=1)
@@ -119,7 +95,7 @@ def _take(choice: str, names: dict[str, Any], hit: Mask, doubt: Mask, whole: Mas
     error = np.take_along_axis(names["t"].error, which, axis=1)[:, 0]
     names |= {name: Bounded(value, np.zeros(1)) for name, value in taken.items()}
     names["t"] = Bounded(taken["t"], error)
-    unsure: Mask = (rivals.sum(axis=1) > 1) | (doubt & rivals).any(axis=1)
+    unsure: Bools = (rivals.sum(axis=1) > 1) | (doubt & rivals).any(axis=1)
     return unsure
 
 
@@ -127,15 +103,12 @@ def exact_hit(program: Program, letters: Letters, where: tuple[int, ...]) -> boo
     """Return whether all conditions hold of one case, or object of a case, in fractions."""
     try:
         names = exactly(program, letters, where)
-        return all(
-            COMPARISONS[comparison](evaluate(left, names), names[limit])
-            for left, comparison, limit in program.conditions
-        )
+        return all(each.holds(names) for each in program.conditions)
     except ZeroDivisionError:
         return False  # there is no plane, or it is not met
 
 
-def exactly(program: Program, letters: Letters, where: tuple[int, ...]) -> dict[str, Any]:
+def exactly(program: Program, letters: Letters, where: tuple[int, ...]) -> Named:
     """Return all of a program's numbers of one case as fractions, vectors as arrays of three.
 
     Raises
@@ -143,14 +116,8 @@ def exactly(program: Program, letters: Letters, where: tuple[int, ...]) -> dict[
     ZeroDivisionError
         If something is divided by 0.
     """
-    names: dict[str, Any] = {name: Fraction(value) for name, value in CONSTANTS.items()}
-    for name, value in letters.values.items():
-        rest = value.shape[value.ndim - len(letters.shape) :]
-        place = tuple(0 if size == 1 else k for k, size in zip(where, rest, strict=True))
-        if not (own := value[(slice(None),) * (value.ndim - len(place)) + place]).ndim:
-            names[name] = Fraction(float(own))
-        else:
-            names[name] = _vector([Fraction(float(component)) for component in own])
-    for label, right in program.formulas.items():
-        names[label] = evaluate(right, names)
-    return names
+
+    def fraction(numbers: Floats) -> Fraction:
+        return Fraction(float(np.broadcast_to(numbers, letters.shape)[where]))
+
+    return program.computed(letters.each(fraction))

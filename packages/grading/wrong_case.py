@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from reference_tracer.arrays import Floats
+from reference_tracer.report.folders import finite
 
-from .form import Form
+from .form import Arrays, Form
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class WrongCase:
         cls,
         form: Form,
         group: str,
-        given: tuple[Floats, ...],
+        given: Arrays,
         true: Floats,
         own: Floats,
         **where: Any,
@@ -37,8 +37,5 @@ class WrongCase:
         """Return a case of arrays; `where` has the fields after these."""
         names = (field.name for field in form.given)
         numbers = dict(zip(names, (array.tolist() for array in given), strict=True))
-        return cls(group, numbers, _finite(true), _finite(own), **where)
-
-
-def _finite(numbers: Floats) -> tuple[float | None, ...]:
-    return tuple(float(v) if np.isfinite(v) else None for v in numbers)
+        certified, student = (tuple(map(finite, row.tolist())) for row in (true, own))
+        return cls(group, numbers, certified, student, **where)

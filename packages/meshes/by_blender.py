@@ -20,6 +20,7 @@ from reference_tracer.scene import SceneError
 from reference_tracer_processes.running import Limits, ProgramError, run
 
 from .contents import Contents, Placed
+from .gltf_extensions import present
 
 _LIMITS = Limits(seconds=600.0, memory=1 << 36)
 _IMPORTS = sys.executable, "-m", "reference_tracer.blender.importing"
@@ -73,18 +74,8 @@ def read_gltf(content: Content, buffers: Sequence[bytes]) -> Contents:
         files = [{"uri": f"{k}.bin", "byteLength": len(data)} for k, data in enumerate(buffers)]
         for k, data in enumerate(buffers):
             Path(name, f"{k}.bin").write_bytes(data)
-        used = sorted({*_extensions(content), *content.get("extensionsRequired", [])})
+        used = sorted({*present(content), *content.get("extensionsRequired", [])})
         content = content | {"buffers": files, "extensionsUsed": used}
         path = Path(name, "file.gltf")
         path.write_text(json.dumps(content), "utf-8")
         return imported(path, "its skins, morph targets, instances, or packed numbers take")
-
-
-def _extensions(thing: object) -> list[str]:
-    """Return the names of all extensions that hold something."""
-    if isinstance(thing, list):
-        return [name for part in thing for name in _extensions(part)]
-    if not isinstance(thing, dict):
-        return []
-    own = thing.get("extensions", {})
-    return [*own, *(name for part in thing.values() for name in _extensions(part))]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -40,10 +40,10 @@ def of_faces(
     vertices: Floats,
     corners: Index,
     sizes: Index,
-    names: Sequence[str],
+    names: Collection[str],
     objects: Index | None = None,
-    notes: Sequence[str] = (),
-    missing: Sequence[str] = (),
+    notes: Iterable[str] = (),
+    missing: Iterable[str] = (),
 ) -> Contents:
     """Return a mesh for each object that has triangles, once its faces are cut into triangles.
 
@@ -79,7 +79,7 @@ def of_faces(
 
 
 def _placed(
-    vertices: Floats, triangles: Index, owners: Index, names: Sequence[str]
+    vertices: Floats, triangles: Index, owners: Index, names: Collection[str]
 ) -> Iterator[Placed]:
     """Yield each object's mesh, in time that does not depend on how many objects there are."""
     order = np.argsort(owners, kind="stable")

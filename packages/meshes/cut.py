@@ -41,6 +41,7 @@ class Cut(NamedTuple):
     missing: tuple[str, ...]  # as of `Contents`
 
 
+@np.errstate(all="ignore")  # what is too large is halved; what has no normal is a line, or crosses
 def cut(vertices: Floats, corners: Index, sizes: Index) -> Cut:
     """Cut faces into triangles.
 
@@ -62,8 +63,7 @@ def cut(vertices: Floats, corners: Index, sizes: Index) -> Cut:
     starts = np.cumsum(sizes) - sizes
     infinite = np.zeros(len(sizes), bool)
     off = ~np.isfinite(vertices).all(axis=1)
-    if off.any():
-        infinite[np.repeat(np.arange(len(sizes)), sizes)[off[corners]]] = True
+    infinite[np.repeat(np.arange(len(sizes)), sizes)[off[corners]]] = True
     triangles, faces = [np.zeros((0, 3), np.intp)], [np.zeros(0, np.intp)]
     bends = _Bends()
     for size in np.unique(sizes[sizes > 2]).tolist():
@@ -112,14 +112,11 @@ def _local(points: Floats) -> Floats:
 
     By a power of two, so that each is off by the rounding of one difference.
     """
-    with np.errstate(over="ignore"):
-        out = points - points[..., :1]
+    out = points - points[..., :1]
     if not np.isfinite(out).all():
         out = points / 2 - points[..., :1] / 2
     largest = np.abs(out).max(axis=(0, 2))[:, None]
-    exponents = np.frexp(np.where(largest > 0, largest, 1))[1]
-    half = exponents // 2  # 2^-exponent itself may overflow
-    return np.ldexp(np.ldexp(out, -half), half - exponents)
+    return np.ldexp(out, -np.frexp(largest)[1])
 
 
 def _quads(faces: Places, at: Floats, normal: Floats, rounding: Floats) -> Array:
@@ -134,7 +131,7 @@ def _quads(faces: Places, at: Floats, normal: Floats, rounding: Floats) -> Array
     flat = dot(normal, normal) <= bound  # both halves cancel one another
     wrong = ((turning < -bound[:, None]).sum(axis=1) > 1) | (flat & (first < 0) & (second < 0))
     if wrong.any():
-        raise _crosses(faces[int(np.argmax(wrong))] + 1)
+        raise _crosses(faces[np.argmax(wrong)] + 1)
     return np.where((first < 0)[:, None, None], [[0, 1, 3], [1, 2, 3]], [[0, 1, 2], [0, 2, 3]])
 
 
@@ -163,11 +160,10 @@ def _are_convex(at: Floats, normal: Floats) -> Bools:
     along = normal[..., None]
     edges = np.roll(at, -1, axis=2) - at
     before = np.roll(edges, 1, axis=2)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        square = dot(along, along)
-        ahead = dot(before, edges) - dot(before, along) * dot(edges, along) / square
-        angles = np.arctan2(turning, ahead * np.sqrt(square))
-        once = np.round(angles.sum(axis=1) / (2 * np.pi)) == 1
+    square = dot(along, along)
+    ahead = dot(before, edges) - dot(before, along) * dot(edges, along) / square
+    angles = np.arctan2(turning, ahead * np.sqrt(square))
+    once = np.round(angles.sum(axis=1) / (2 * np.pi)) == 1
     return (turning > bound[:, None]).all(axis=1) & once
 
 
@@ -208,10 +204,10 @@ def _by_library(face: int, at: Floats, normal: Floats, rounding: float) -> Array
     areas = (q - p)[0] * (r - p)[1] - (q - p)[1] * (r - p)[0]
     if areas.sum() < 0:  # the library winds all triangles one way, and says not which
         found, areas = found[:, ::-1], -areas
-    own = float((seen[0] * np.roll(seen[1], -1) - np.roll(seen[0], -1) * seen[1]).sum())
+    own = (seen[0] * np.roll(seen[1], -1) - np.roll(seen[0], -1) * seen[1]).sum()
     # What rounding does to a doubled area: ours, and the file's of corners whose sides are below 3.
     bound = _AREA + 8 * rounding
-    far = at[:, int(np.argmax(np.abs(at).max(axis=0)))]
+    far = at[:, np.argmax(np.abs(at).max(axis=0))]
     is_line = bool(np.abs(cross(at, far[:, None])).max() <= bound)
     if (areas < -bound).any() or abs(areas.sum() - own) > count * bound or (own <= 0) > is_line:
         raise _crosses(face)
@@ -236,19 +232,18 @@ class _Bends:
     def add(self, points: Floats, at: Floats, normal: Floats) -> Floats:
         """Measure faces (3, k, n); return how far they may be rounded, (k,) in sizes of each."""
         largest = np.abs(points).max(axis=(0, 2))
-        with np.errstate(all="ignore"):  # a face that has no normal is a line, or crosses itself
-            unit = normal / np.sqrt(dot(normal, normal))
-            middle = at.mean(axis=2, keepdims=True)
-            away = np.abs(dot(at - middle, unit[..., None])).max(axis=1)
-            spans, own = np.ptp(at, axis=2), np.ptp(points, axis=2)
-            share = away / np.sqrt(dot(spans, spans))
-            size = np.sqrt(dot(own, own))
-            rounding = np.minimum(4 * (_DECIMALS + _DIGITS * largest) / size, _SEEN)
-            bent = share > rounding
+        unit = normal / np.sqrt(dot(normal, normal))
+        middle = at.mean(axis=2, keepdims=True)
+        away = np.abs(dot(at - middle, unit[..., None])).max(axis=1)
+        spans, own = np.ptp(at, axis=2), np.ptp(points, axis=2)
+        share = away / np.sqrt(dot(spans, spans))
+        size = np.sqrt(dot(own, own))
+        rounding = np.minimum(4 * (_DECIMALS + _DIGITS * largest) / size, _SEEN)
+        bent = share > rounding
         if bent.any():
             self.count += int(bent.sum())
-            self.metres = max(self.metres, float(np.max((share * size)[bent])))
-            self.share = max(self.share, float(np.max(share[bent])))
+            self.metres = max(self.metres, np.max((share * size)[bent]))
+            self.share = max(self.share, np.max(share[bent]))
         return np.nan_to_num(rounding, nan=_SEEN)
 
     def __iter__(self) -> Iterator[str]:

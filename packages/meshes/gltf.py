@@ -260,8 +260,8 @@ def _joined(parts: list[tuple[int, Floats, Index]], name: str) -> Mesh:
     for position, own, faces in parts:
         if not np.isfinite(own).all():
             raise SceneError(f"accessor {position} holds numbers that are not finite")
-        if len(faces) and int(np.max(faces)) >= len(own):
-            raise SceneError(f"'{name}' names corner {int(np.max(faces))} of {len(own)}")
+        if len(faces) and np.max(faces) >= len(own):
+            raise SceneError(f"'{name}' names corner {np.max(faces)} of {len(own)}")
         if position not in starts:
             starts[position] = sum(map(len, vertices))
             vertices.append(own)

@@ -81,11 +81,11 @@ def unknown_extensions(content: Content) -> list[str]:
             f"it requires {', '.join(unknown)[:99]}, which Reference Tracer does not apply: "
             "export it without"
         )
-    used = dict.fromkeys((*map(str, content.get("extensionsUsed", [])), *_present(content)))
+    used = dict.fromkeys((*map(str, content.get("extensionsUsed", [])), *present(content)))
     return [name for name in used if name not in known]
 
 
-def _present(content: Content) -> Iterator[str]:
+def present(content: Content) -> Iterator[str]:
     """Yield the extensions that objects of the file hold, listed or not."""
     waiting: list[object] = [content]
     while waiting:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
-from reference_tracer.arrays import Floats
 from reference_tracer.files.exr import MissingLibraryError
 from reference_tracer.files.file_kinds import check_is_file
 from reference_tracer.files.scenes import Account
@@ -105,11 +104,6 @@ def _numbered(things: Iterable[Thing]) -> dict[Thing, int]:
     return {thing: number for number, thing in enumerate(dict.fromkeys(things))}
 
 
-def _instance(mesh: int, number: int, matrix: Floats, greys: Floats) -> Instance:
-    grey = greys[number]
-    return Instance(mesh, number, matrix, np.array([[grey, grey, grey, 1]], np.float32))
-
-
 def scene_of_meshes(
     contents: Contents,
     camera: Camera | None,
@@ -133,9 +127,11 @@ def scene_of_meshes(
     objects = _numbered(part.object for part in placed)
     meshes = _numbered(part.mesh for part in placed)  # by identity
     greys = np.linspace(0.8, 0.3, len(objects))
+    colors = np.stack((greys, greys, greys, np.ones(len(greys))), axis=1).astype(np.float32)
     instances = tuple(
-        _instance(meshes[part.mesh], objects[part.object], part.world_from_object, greys)
+        Instance(meshes[part.mesh], number, part.world_from_object, colors[number : number + 1])
         for part in placed
+        for number in (objects[part.object],)
     )
     shown = tuple(meshes)
     if camera is None:

@@ -48,14 +48,13 @@ class _Reading:
     def __init__(self, stem: str) -> None:
         self.numbers: list[bytes] = []  # of the vertices, three each
         self.vertex_lines: list[int] = []
-        self.corners: list[bytes] = []  # indices of vertices, from 1
+        self.corners: list[bytes] = []  # indices of vertices: from 1, or back from the face
         self.sizes: list[int] = []  # of the faces
+        self.above: list[int] = []  # vertices above each face
         self.face_lines: list[int] = []
-        # By the key of its line, the numbers of names, and the one that each face is of.
-        self.names = {key: {stem: 0} for key in (b"o", b"g")}
-        self.current = {b"o": 0, b"g": 0}
-        self.owners: dict[bytes, list[int]] = {b"o": [], b"g": []}
-        self.times = Counter[str]()  # that an object was begun
+        # Of objects and groups, how many faces were there before each, and its name.
+        self.begun = {key: [(0, stem)] for key in (b"o", b"g")}
+        self.stem = stem
         self.weights = 0
         self.other: Counter[bytes] = Counter()
 
@@ -67,20 +66,24 @@ class _Reading:
                 self._vertex(line, words)
             elif key == b"f":
                 self._face(line, words[1:])
-            elif key in self.names:
-                self._begin(key, b" ".join(words[1:]).decode("utf-8", "replace"))
+            elif key in self.begun:
+                name = b" ".join(words[1:]).decode("utf-8", "replace") or self.stem
+                self.begun[key].append((len(self.sizes), name))
             elif key not in _NO_SHAPE:
                 self.other[key] += 1
-        by = b"o" if self.times else b"g"
+        objects, groups = self.begun.values()
+        starts, named = zip(*(objects if len(objects) > 1 else groups), strict=True)
+        names = {name: number for number, name in enumerate(dict.fromkeys(named))}
+        faces = np.diff([*starts, len(self.sizes)])
         threes = [3] * len(self.vertex_lines)
         return of_faces(
             in_lines(floats, self.numbers, threes, self.vertex_lines).reshape(-1, 3),
             self._indices(),
             np.array(self.sizes, np.intp),
-            list(self.names[by]),
-            np.array(self.owners[by], np.intp),
-            tuple(self._notes()),
-            tuple(self._missing()),
+            names,
+            np.repeat([names[name] for name in named], faces),
+            self._notes(),
+            self._missing(),
         )
 
     def _vertex(self, line: int, words: list[bytes]) -> None:
@@ -95,53 +98,42 @@ class _Reading:
             self.weights += 1
 
     def _face(self, line: int, words: list[bytes]) -> None:
-        corners = [word.partition(b"/")[0] for word in words]
-        for k, corner in enumerate(corners):
-            if corner[:1] == b"-":  # -1 is the last vertex above the line
-                (back,) = in_lines(integers, [corner], [1], [line]).tolist()
-                corners[k] = b"%d" % (back and len(self.vertex_lines) + 1 + back)
-        self.corners += corners
-        self.sizes.append(len(corners))
+        self.corners += [word.partition(b"/")[0] for word in words]
+        self.sizes.append(len(words))
+        self.above.append(len(self.vertex_lines))
         self.face_lines.append(line)
-        for key, owners in self.owners.items():
-            owners.append(self.current[key])
-
-    def _begin(self, key: bytes, name: str) -> None:
-        """Make the next faces those of a name, which may have been there before."""
-        names = self.names[key]
-        self.current[key] = names.setdefault(name, len(names)) if name else 0
-        if key == b"o":
-            self.times[name] += 1
 
     def _indices(self) -> Index:
         """Return the corners' indices, from 0."""
         found = in_lines(integers, self.corners, self.sizes, self.face_lines)
+        above, sizes = (np.array(own, np.intp) for own in (self.above, self.sizes))
+        found = np.where(found < 0, np.repeat(above, sizes) + 1 + found, found)
         if len(bad := np.flatnonzero((found < 1) | (found > len(self.vertex_lines)))):
-            face = int(np.searchsorted(np.cumsum(self.sizes), bad[0], "right"))
+            face = np.searchsorted(np.cumsum(sizes), bad[0], "right")
             names = f"line {self.face_lines[face]} names vertex {found[bad[0]]}"
             raise SceneError(f"{names}, but there are {len(self.vertex_lines)}")
         return found - 1
 
     def _notes(self) -> Iterator[str]:
         for key, count in self.other.items():
-            named = f"'{shown(key)}'"
-            if what := _NO_SURFACE.get(key):
-                named = f"{named} ({what})"
-                said = count_of(count, f"line {named} is", f"lines {named} are")
-                yield f"{said} not drawn: what has no surface meets no ray"
-            elif key not in _CURVED:
-                said = count_of(count, f"line {named} is", f"lines {named} are")
-                yield f"{said} not understood, and left out"
+            if key in _CURVED:
+                continue
+            what = _NO_SURFACE.get(key)
+            named = f"'{shown(key)}' ({what})" if what else f"'{shown(key)}'"
+            said = count_of(count, f"line {named} is", f"lines {named} are")
+            why = "drawn: what has no surface meets no ray" if what else "understood, and left out"
+            yield f"{said} not {why}"
         if self.weights:
             said = count_of(self.weights, "vertex has a weight", "vertices have weights")
             yield f"{said} other than 1, which polygons do not use"
-        if again := [f"'{name}'" for name, times in self.times.items() if times > 1]:
+        times = Counter(name for _, name in self.begun[b"o"][1:])
+        if again := [f"'{name}'" for name, count in times.items() if count > 1]:
             yield f"objects that have the same name are taken as one: {', '.join(again[:3])}"
 
     def _missing(self) -> Iterator[str]:
-        if curved := [key.decode() for key in self.other if key in _CURVED]:
-            count = sum(self.other[key.encode()] for key in curved)
-            said = f"{count_of(count, 'line')} ({', '.join(curved)})"
+        curved = {key.decode(): count for key, count in self.other.items() if key in _CURVED}
+        if curved:
+            said = f"{count_of(sum(curved.values()), 'line')} ({', '.join(curved)})"
             yield f"curves and surfaces are not drawn: {said}; save them as polygons"
 
 

@@ -72,4 +72,4 @@ def _of_text(content: bytes, stem: str) -> Contents:
     ]
     owners = np.repeat(np.array(own, np.intp), [inside.count(b"\0") for _, inside in solids])
     sizes = np.array([len(facet.split()) // 4 for facet in facets], np.intp)
-    return of_faces(numbers, np.arange(len(numbers)), sizes, list(names), owners)
+    return of_faces(numbers, np.arange(len(numbers)), sizes, names, owners)

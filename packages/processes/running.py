@@ -18,7 +18,7 @@ from reference_tracer.wording import printable
 from .sandbox import kept_in, limited
 
 SECONDS = 60.0
-MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
+MEMORY = 2 << 30  # bytes of data
 KEPT = 4000  # bytes of what a program prints
 
 
@@ -135,8 +135,8 @@ def kill(process: subprocess.Popen[bytes]) -> None:
 def how(code: int) -> str:
     """Say how a process ended: in the sandbox, 128 and a signal's number are its exit code."""
     known = {s.value: s.name for s in signal.Signals}  # not all of the realtime ones
-    if code < 0 or code - 128 in known:
-        number = -code if code < 0 else code - 128
+    number = -code if code < 0 else code - 128
+    if code < 0 or number in known:
         return f"was ended by {known.get(number, f'signal {number}')}"
     return f"ended with exit code {code}"
 

@@ -52,14 +52,11 @@ def secret() -> bytes | None:
     with suppress(OSError):
         if sandbox():
             path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            with suppress(FileExistsError), os.fdopen(_created(path), "wb") as file:
-                file.write(secrets.token_bytes(32))
+            with suppress(FileExistsError):
+                path.touch(0o600, exist_ok=False)
+                path.write_bytes(secrets.token_bytes(32))
             return path.read_bytes() or None
     return None
-
-
-def _created(path: Path) -> int:
-    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
 
 
 def _secrets() -> Path:
@@ -93,8 +90,9 @@ def kept_in(
     own = environment | {k: os.environ[k] for k in _KEPT_ENVIRONMENT if k in os.environ}
     named = [Path(word).resolve() for word in words if os.path.exists(word)]
     seen = [*libraries, *named, *(path if path.is_dir() else path.parent for path in named)]
-    options = _seen([*seen, start or Path.cwd()], folder, own)
-    return [*kept, *options, "--chdir", str(start or Path.cwd()), "--", *words]
+    start = start or Path.cwd()
+    options = _seen([*seen, start], folder, own)
+    return [*kept, *options, "--chdir", str(start), "--", *words]
 
 
 def check_shown(words: Sequence[str], otherwise: str = "") -> None:
@@ -141,7 +139,7 @@ def limited(memory: int) -> dict[str, Any]:
             (resource.RLIMIT_FSIZE, _LARGEST_FILE),
             (resource.RLIMIT_CORE, 0),
         ):
-            with suppress(ValueError, OSError):
+            with suppress(ValueError, OSError, OverflowError):
                 resource.setrlimit(kind, (most, most))
 
     return {"preexec_fn": limit}  # beside a thread it may import nothing and take no lock

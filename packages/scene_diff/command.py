@@ -22,19 +22,9 @@ from reference_tracer.scene import Scene, SceneError
 from reference_tracer.wording import count_of, show
 
 from .differences import differences
-from .geometry import Objects
+from .geometry import shapes_of
 
 SCHEMA = "reference_tracer.diff/1"
-
-
-@dataclass(frozen=True)
-class DiffOptions:
-    """The options of `reftrace diff`."""
-
-    first: Path
-    second: Path
-    up: str | None
-    json: Path | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +43,7 @@ def add(parser: Parser) -> None:
         paths = given.scene, given.other
         if not any(path.suffix.lower() in mesh_formats() for path in paths):
             refuse(given, ("up",), "is for meshes: in a scene Z is up")
-        return diff(DiffOptions(*paths, given.up, given.json))
+        return diff(*paths, given.up, given.json)
 
     parser.runs(run, "reftrace diff scene.blend export.glb", EXIT_CODES_HELP)
     parser.add_scene(f"what is right: {SOURCES}")
@@ -67,22 +57,22 @@ def add(parser: Parser) -> None:
     )
 
 
-def diff(options: DiffOptions) -> int:
+def diff(scene: Path, other: Path, up: str | None, out: Path | None) -> int:
     """Print how the second scene differs from the first; return whether it does."""
-    paths = options.first, options.second
+    paths = scene, other
     for path in paths:
         check_kind(path)
-    first, second = (side(path, options.up) for path in paths)
+    first, second = (side(path, up) for path in paths)
     found = differences(first.scene, second.scene, first.variants)
     show(*first.remarks, *second.remarks)
     for difference in found:
         show(*difference.lines())
-    counts = [count_of(len(Objects.of(s.scene).triangles), "object") for s in (first, second)]
+    counts = [count_of(len(shapes_of(s.scene)), "object") for s in (first, second)]
     how = count_of(len(found), "difference") if found else "the same"
     show(f"{counts[0]} and {counts[1]}: {how}")
-    if options.json:
+    if out:
         content = {"schema": SCHEMA, "differences": [d.to_dict() for d in found]}
-        folders.write_text(options.json, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
+        folders.write_text(out, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
     return DIFFERENCES if found else AGREE
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from reference_tracer.arrays import Floats
@@ -14,8 +15,8 @@ from reference_tracer.diagnosis.faults.fault import AnyFault, Guess
 from reference_tracer.scene import Plane, Scene
 from reference_tracer.wording import count_of
 
-from .geometry import DIGITS, ROUNDINGS, Objects
-from .matching import matched, points_alike
+from .geometry import DIGITS, ROUNDINGS, Shape, Shapes, shapes_of
+from .matching import Matched, matched, points_alike
 from .moves import MARGIN, Move, move_between
 
 _FAULT: dict[str, AnyFault] = {fault.name: fault for fault in FAULTS}
@@ -43,14 +44,24 @@ class Difference:
         return vars(self).copy()
 
 
+class Pair(NamedTuple):
+    """An object of the first scene, and its partner in the second."""
+
+    name: str
+    own: Shape
+    other: Shape
+
+    @property
+    def tolerance(self) -> float:
+        """How far digits may move a coordinate of either, metres."""
+        return max(self.own.tolerance, self.other.tolerance)
+
+
 def _of_fault(name: str, object_: str, sentence: str = "", words: str = "") -> Difference:
     """Return a difference that a fault of the diagnosis explains, in its words."""
     fault, guess = _FAULT[name], Guess(object=object_, words=words)
-    return Difference(object_, name, sentence or fault.sentence_of(guess), _advice(fault, guess))
-
-
-def _advice(fault: AnyFault, guess: Guess) -> str:
-    return "" if "{" in fault.advice else fault.advice_of(guess)
+    advice = "" if "{" in fault.advice else fault.advice_of(guess)
+    return Difference(object_, name, sentence or fault.sentence_of(guess), advice)
 
 
 def differences(
@@ -61,24 +72,22 @@ def differences(
     `variants` are scenes with faults that only Blender can make, of the first. What all objects, or
     most, have in common is said once, and the rest beside that.
     """
-    own, other = Objects.of(first), Objects.of(second)
-    shared = own.triangles.keys() & other.triangles
-    if len(other.triangles) == 1 < len(own.triangles) and not shared:
-        name = next(iter(other.triangles))  # the file has no objects
-        own, variants = own.joined(name), ()
-    made = [(v, Objects.of(v.scene)) for v in variants]
+    own, other = shapes_of(first), shapes_of(second)
+    if len(other) == 1 < len(own) and not own.keys() & other.keys():
+        own = dict.fromkeys(other, Shape.joined(own.values()))  # the file has no objects
+        variants = ()
+    made = [(v, shapes_of(v.scene)) for v in variants]
     names = _paired(own, other)
-    moves, out = _compared(own, other, names, made)
-    common = _common(own, other, names, moves)
-    if common is not None:
-        move, of = common
-        out_of_all = _of_all(move, _allowed(own, other, of, names[of]))
-        own, *others = (o.moved_by(move) for o in (own, *(o for _, o in made)))
-        made = [(v, o) for (v, _), o in zip(made, others, strict=True)]
-        moves, out = _compared(own, other, names, made, MARGIN)
-        out.insert(0, out_of_all)
-    for name, move in moves.items():
-        out.append(_moved(name, move, _allowed(own, other, name, names[name])))
+    pairs = [Pair(name, own[name], other[shown]) for name, shown in names.items()]
+    moves, out = _compared(pairs, made)
+    if common := _common(pairs, moves):
+        move, tolerance = common
+        own = {name: shape.moved_by(move) for name, shape in own.items()}
+        made = [(v, {n: shape.moved_by(move) for n, shape in of.items()}) for v, of in made]
+        pairs = [pair._replace(own=own[pair.name]) for pair in pairs]
+        moves, out = _compared(pairs, made, MARGIN)
+        out.insert(0, _of_all(move, tolerance))
+    out += [_moved(p.name, moves[p.name], p.tolerance) for p in pairs if p.name in moves]
     out += _missing(own, other, names)
     out += _of_planes(first, second)
     return tuple(out)
@@ -109,21 +118,12 @@ def _alike(first: Plane, second: Plane) -> bool:
     """Return whether two planes are the same, with the same side in front."""
     size = float(max(np.abs(first.point).max(), np.abs(second.point).max()))
     n, m = (p.normal / np.sqrt((p.normal * p.normal).sum()) for p in (first, second))
-    off = abs(float(n @ (second.point - first.point)))
+    off = abs(n @ (second.point - first.point))
     return float(np.abs(n - m).max()) <= ROUNDINGS and off <= 2 * (ROUNDINGS * size + DIGITS)
 
 
-def _allowed(own: Objects, other: Objects, name: str, shown: str) -> float:
-    """Return how far digits may move a coordinate of an object and its partner, metres."""
-    return max(own.tolerance(name), other.tolerance(shown))
-
-
 def _compared(
-    own: Objects,
-    other: Objects,
-    names: dict[str, str],
-    made: Sequence[tuple[Variant, Objects]],
-    times: int = 1,
+    pairs: Sequence[Pair], made: Sequence[tuple[Variant, Shapes]], times: int = 1
 ) -> tuple[dict[str, Move], list[Difference]]:
     """Return how objects are moved, and what else differs of those with a partner.
 
@@ -131,36 +131,35 @@ def _compared(
     """
     moves: dict[str, Move] = {}
     out: list[Difference] = []
-    for name in names:
-        triangles, shown = own.triangles[name], other.triangles[names[name]]
-        tolerance = times * _allowed(own, other, name, names[name])
-        found = _of_object(name, triangles, shown, tolerance, made)
+    for pair in pairs:
+        own, other = pair.own.triangles, pair.other.triangles
+        tolerance = times * pair.tolerance
+        found = _of_object(pair.name, own, other, tolerance, made)
         if found is not None:
             out += found
-        elif move := move_between(triangles, shown, tolerance):
-            moves[name] = move
-            out += _turned_over(name, move.of(triangles), shown, 8 * tolerance)
+        elif move := move_between(own, other, tolerance):
+            moves[pair.name] = move
+            out += _turned_over(pair.name, matched(move.of(own), other, 8 * tolerance))
         else:
-            out.append(_of_triangles(name, triangles, shown, tolerance))
+            out.append(_of_triangles(pair.name, own, other, tolerance))
     return moves, out
 
 
-def _common(
-    own: Objects, other: Objects, names: dict[str, str], moves: dict[str, Move]
-) -> tuple[Move, str] | None:
-    """Return a transform that most of several objects have in common, and whose it is, if any.
+def _common(pairs: Sequence[Pair], moves: dict[str, Move]) -> tuple[Move, float] | None:
+    """Return a transform that most of several objects have in common, if any.
 
-    An object with symmetries is moved in several ways: so each way is tried on all objects.
+    And the tolerance of the object whose it is. An object with symmetries is moved in several ways:
+    so each way is tried on all objects.
     """
-    for of, move in [*moves.items()][:_TRIED]:
+    moved = [pair for pair in pairs if pair.name in moves]
+    for first in moved[:_TRIED]:
+        move = moves[first.name]
         alike = 0
-        for name in moves:
-            there = move.of(own.triangles[name])
-            tolerance = MARGIN * _allowed(own, other, name, names[name])
-            found = matched(there, other.triangles[names[name]], tolerance)
-            alike += int((found.same + found.turned > 0).all())
-        if 2 * alike > len(names) > 1:
-            return move, of
+        for own, other, tolerance in ((p.own, p.other, MARGIN * p.tolerance) for p in moved):
+            there = matched(move.of(own.triangles), other.triangles, tolerance).there
+            alike += bool(there.all())
+        if 2 * alike > len(pairs) > 1:
+            return move, first.tolerance
     return None
 
 
@@ -180,12 +179,12 @@ def _moved(name: str, move: Move, tolerance: float) -> Difference:
     return _of_fault(kind, name, f"'{name}' is {words}")
 
 
-def _paired(own: Objects, other: Objects) -> dict[str, str]:
+def _paired(own: Shapes, other: Shapes) -> dict[str, str]:
     """Return which objects have one name: as it is, or as formats write names."""
-    plain = {_plain(name): name for name in reversed(other.triangles)}
-    same = {name: name for name in own.triangles if name in other.triangles}
+    plain = {_plain(name): name for name in reversed(other)}
+    same = {name: name for name in own if name in other}
     taken = set(same.values())
-    for name in own.triangles:
+    for name in own:
         near = plain.get(_plain(name))
         if name not in same and near is not None and near not in taken:
             same[name] = near
@@ -202,12 +201,12 @@ def _of_object(
     own: Floats,
     other: Floats,
     tolerance: float,
-    made: Sequence[tuple[Variant, Objects]],
+    made: Sequence[tuple[Variant, Shapes]],
 ) -> list[Difference] | None:
     """Return how an object differs that is in place, or as a variant has it; None if neither."""
     there, back = matched(own, other, tolerance), matched(other, own, tolerance)
-    if (there.same + there.turned > 0).all() and (back.same + back.turned > 0).all():
-        found = list(_turned_over(name, own, other, tolerance))
+    if there.there.all() and back.there.all():
+        found = list(_turned_over(name, there))
         if len(other) > len(own):
             times = len(other) / len(own)
             say = f"'{name}' is there {times:.3g} times in one place"
@@ -217,23 +216,22 @@ def _of_object(
             say = f"{doubles} of '{name}' that are there twice are there once"
             found.append(Difference(name, "doubles_left_out", say))
         return found
-    for variant, objects in made:
-        same = objects.triangles.get(name)
-        if same is None or len(same) != len(other) or not variant.fault:
+    for variant, shapes in made:
+        same = shapes[name].triangles if name in shapes else other[:0]
+        if len(same) != len(other) or not variant.fault:
             continue
-        found_there = matched(same, other, tolerance)
-        if (found_there.same + found_there.turned > 0).all():
+        if matched(same, other, tolerance).there.all():
             words = f"'{name}'" if variant.fault != "subdivision" else f"'{name}', {variant.words}"
             return [_of_fault(variant.fault, name, words=words)]
     return None
 
 
-def _turned_over(name: str, own: Floats, other: Floats, tolerance: float) -> Iterator[Difference]:
+def _turned_over(name: str, found: Matched) -> Iterator[Difference]:
     """Yield that triangles have their other side in front."""
-    found = matched(own, other, tolerance)
-    turned = int(((found.same == 0) & (found.turned > 0)).sum())
+    turned = ((found.same == 0) & (found.turned > 0)).sum()
     if turned:
-        which = "all normals" if turned == len(own) else f"the normals of {turned:,} triangles"
+        count = len(found.same)
+        which = "all normals" if turned == count else f"the normals of {turned:,} triangles"
         yield _of_fault("flipped_winding", name, f"{which} of '{name}' are turned over")
 
 
@@ -245,8 +243,7 @@ def _of_triangles(name: str, own: Floats, other: Floats, tolerance: float) -> Di
             say = f"'{name}' has {counts}: as with {abs(level)} {'more' if level > 0 else 'fewer'}"
             return _of_fault("subdivision", name, f"{say} levels of subdivision")
     points = own.reshape(-1, 3), other.reshape(-1, 3)
-    there = matched(own, other, tolerance)
-    same = int((there.same + there.turned > 0).sum())
+    same = matched(own, other, tolerance).there.sum()
     if len(other) < len(own) and same == len(other):
         return _of_fault(
             "triangles_missing", name, f"'{name}' lacks {len(own) - same:,} of its triangles"
@@ -261,17 +258,20 @@ def _of_triangles(name: str, own: Floats, other: Floats, tolerance: float) -> Di
     return Difference(name, "other_triangles", f"{say} {size:.3g} m at most")
 
 
-def _missing(own: Objects, other: Objects, names: dict[str, str]) -> Iterator[Difference]:
+def _missing(own: Shapes, other: Shapes, names: dict[str, str]) -> Iterator[Difference]:
     """Yield the objects that have no partner of their name."""
-    left = [name for name in own.triangles if name not in names]
-    more = [name for name in other.triangles if name not in names.values()]
-    for name in more:
-        alike = _found(own, [*left, *names], other, name)
-        if alike is None:
+    left = [name for name in own if name not in names]
+    for name in other:
+        if name in names.values():
+            continue
+        for of in (*left, *names):
+            pair = Pair(of, own[of], other[name])
+            if move := move_between(pair.own.triangles, pair.other.triangles, pair.tolerance):
+                break
+        else:
             yield Difference(name, "object_added", f"'{name}' is not in the first scene")
             continue
-        of, move = alike
-        where = move.words(_allowed(own, other, of, name))
+        where = move.words(pair.tolerance)
         where = "" if where == "unchanged" else f", {where}"
         if of in left:
             left.remove(of)
@@ -280,15 +280,3 @@ def _missing(own: Objects, other: Objects, names: dict[str, str]) -> Iterator[Di
             yield _of_fault("object_twice", of, f"'{of}' is there twice: again as '{name}'{where}")
     for name in left:
         yield _of_fault("object_missing", name)
-
-
-def _found(
-    own: Objects, names: Sequence[str], other: Objects, shown: str
-) -> tuple[str, Move] | None:
-    """Return the first of some objects that has another's triangles, and how it is moved."""
-    for name in names:
-        tolerance = _allowed(own, other, name, shown)
-        move = move_between(own.triangles[name], other.triangles[shown], tolerance)
-        if move is not None:
-            return name, move
-    return None

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from reference_tracer.arrays import Floats, Integers
+from reference_tracer.arrays import Bools, Floats, Integers
 
 # A generic direction: of triangles that lie apart, few are as far along it.
 _ALONG = np.array((0.5361, 0.3127, 0.7841))
@@ -21,6 +20,11 @@ class Matched(NamedTuple):
 
     same: Integers  # (n,) with the same side
     turned: Integers  # (n,) with the other side
+
+    @property
+    def there(self) -> Bools:
+        """Whether one lies where each does, (n,)."""
+        return (self.same > 0) | (self.turned > 0)
 
 
 def matched(first: Floats, second: Floats, tolerance: float) -> Matched:
@@ -54,7 +58,7 @@ def matched(first: Floats, second: Floats, tolerance: float) -> Matched:
 
 def _any_alike(
     first: Floats, second: Floats, orders: tuple[tuple[int, ...], ...], tolerance: float
-) -> NDArray[np.bool_]:
+) -> Bools:
     alike = np.zeros(len(first), bool)
     for corners in orders:
         alike |= (np.abs(first - second[:, list(corners)]) <= tolerance).all(axis=(1, 2))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import permutations, product
+from typing import NamedTuple
 
 import numpy as np
 from reference_tracer.arrays import Floats
@@ -86,26 +87,34 @@ def move_between(first: Floats, second: Floats, tolerance: float) -> Move | None
         found = matched(move.of(first), second, MARGIN * tolerance)
         if (found.same > 0).all():
             return move
-        if turned is None and (found.same + found.turned > 0).all():
+        if turned is None and found.there.all():
             turned = move
     return turned
 
 
 def _guesses(first: Floats, second: Floats) -> Iterator[Move]:
     """Yield transforms: of axes and a scale about the centres, then by the order of the corners."""
-    centres = first.mean(axis=(0, 1)), second.mean(axis=(0, 1))
-    spread = [np.sqrt(((t - c) ** 2).mean()) for t, c in zip((first, second), centres, strict=True)]
-    scale = spread[1] / spread[0] if spread[0] > 0 else 1.0
-    shape = [_shape(t, c, s) for t, c, s in zip((first, second), centres, spread, strict=True)]
+    own, other = _body(first), _body(second)
+    scale = other.spread / own.spread if own.spread > 0 else 1.0
     for axes in _AXES:
-        if np.abs(axes @ shape[0] @ axes.T - shape[1]).max() < 1e-3:
-            yield Move(scale * axes, centres[1] - scale * axes @ centres[0], centres[0])
-    corners = [(t - c).reshape(-1, 3) for t, c in zip((first, second), centres, strict=True)]
-    axes = np.linalg.lstsq(corners[0], corners[1], rcond=None)[0].T
-    yield Move(axes, centres[1] - axes @ centres[0], centres[0])
+        if np.abs(axes @ own.shape @ axes.T - other.shape).max() < 1e-3:
+            yield Move(scale * axes, other.centre - scale * axes @ own.centre, own.centre)
+    axes = np.linalg.lstsq(own.corners, other.corners, rcond=None)[0].T
+    yield Move(axes, other.centre - axes @ own.centre, own.centre)
 
 
-def _shape(triangles: Floats, centre: Floats, spread: float) -> Floats:
-    """Return the second moments of triangles' corners (3, 3), whatever their size and place."""
-    corners = (triangles - centre).reshape(-1, 3) / (spread or 1.0)
-    return corners.T @ corners / len(corners)
+class _Body(NamedTuple):
+    """The corners of triangles, without regard to their order."""
+
+    centre: Floats  # (3,)
+    corners: Floats  # (n, 3) from the centre
+    spread: float  # the root of their mean square
+    shape: Floats  # (3, 3) their second moments, whatever their size and place
+
+
+def _body(triangles: Floats) -> _Body:
+    centre = triangles.mean(axis=(0, 1))
+    corners = (triangles - centre).reshape(-1, 3)
+    spread = np.sqrt((corners**2).mean())
+    unit = corners / (spread or 1.0)
+    return _Body(centre, corners, spread, unit.T @ unit / len(unit))

@@ -240,7 +240,7 @@ Definition code_answers : Contest.answers := {|
   Contest.interval_high s := number_of (high_float s);
   Contest.order_applies := code_order_applies;
   Contest.order_of := code_order;
-  Contest.two_by_two := false;
+  Contest.two_by_two := true;
   Contest.hit s := asked s (fun _ => true) false;
   Contest.on_edge s := asked s Hits.on_edge false;
   Contest.is_crossed s := asked s (Hits.is_crossed Ties.PERTURBATION) false;

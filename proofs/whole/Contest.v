@@ -64,7 +64,7 @@ Record answers := Answers {
   interval_high : surface -> number;
   order_applies : bool; (* order.py *)
   order_of : surface -> surface -> order;
-  two_by_two : bool; (* whether candidates are compared in rounds, as the sweep does: tournament.py *)
+  two_by_two : bool; (* whether candidates are compared in rounds, as decisions.py does *)
   hit : surface -> bool; (* exact.py: whether [IntegerBatch.hit] is not None *)
   on_edge : surface -> bool;
   is_crossed : surface -> bool; (* by the moved ray *)
@@ -163,7 +163,7 @@ Definition meet (one other : entrant) : option entrant :=
   | COPLANAR => Some (fst one, snd one ++ fst other :: snd other)
   | UNDECIDED => None
   end.
-(** [one_by_one]: the nearest so far, and the next. *)
+(** One by one: the nearest so far, and the next. *)
 Definition one_by_one (those : list entrant) : option entrant :=
   match those with
   | [] => None
@@ -172,7 +172,7 @@ Definition one_by_one (those : list entrant) : option entrant :=
         rest (Some first)
   end.
 
-(** [tournament] of the sweep: in each round, every second one meets the one before it. *)
+(** decisions.py, [tournament]: in each round, every second one meets the one before it. *)
 Fixpoint round (those : list entrant) : option (list entrant) :=
   match those with
   | one :: other :: rest =>

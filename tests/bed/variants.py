@@ -59,19 +59,6 @@ def _cameras(scene: Description) -> Iterator[Found]:
     for key, text, changed in _lenses(lens):
         through = camera_of(changed, film, own)
         yield key, "Camera", text, right.seen_by(through)
-    if film.aspect_x != film.aspect_y:
-        square = camera_of(lens, replace(film, aspect_x=1.0, aspect_y=1.0), own)
-        yield "pixel_aspect_left_out", "Camera", "with square pixels", right.seen_by(square)
-    if film.percentage != 100:
-        w, share = camera.window, film.percentage / 100
-        window = ViewWindow(
-            w.left,
-            w.left + share * (w.right - w.left),
-            w.top - share * (w.top - w.bottom),
-            w.top,
-        )
-        cut = replace(camera, window=window)
-        yield "resolution_percentage", "Camera", "for the full resolution", right.seen_by(cut)
 
 
 def _lenses(lens: Lens) -> Iterator[tuple[str, str, Lens]]:
@@ -81,7 +68,7 @@ def _lenses(lens: Lens) -> Iterator[tuple[str, str, Lens]]:
     if lens.fit == "VERTICAL":
         wide = replace(lens, sensor_height=lens.sensor_width)
         yield "sensor_width_for_height", "with the sensor's width for its height", wide
-        yield "sensor_fit", "fitted to the width", replace(lens, fit="HORIZONTAL")
+        yield "sensor_fit_setting", "fitted to the width", replace(lens, fit="HORIZONTAL")
 
 
 def _frames(scene: Description) -> Iterator[Found]:
@@ -129,14 +116,6 @@ def _together(scene: Description) -> Iterator[Found]:
         names = ", ".join(i.name for i in inside)
         text = "without the instance's transform"
         yield "instance_transform", names, text, scene_of(_with(scene, *free))
-    if any(i.shape.faces.shape[1] == 4 for i in scene.items):
-        cut = [replace(i, shape=_cut(i.shape)) for i in scene.items]
-        text = "quads cut along the other diagonal"
-        yield "other_diagonal", "all quads", text, scene_of(_with(scene, *cut))
-
-
-def _cut(shape: Shape) -> Shape:
-    return Shape(shape.vertices, shape.triangles(other_diagonal=True))
 
 
 def _with(scene: Description, *items: Item) -> Description:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
+from multiprocessing import active_children
 from pathlib import Path
 
 import numpy as np
@@ -141,7 +142,8 @@ def test_blender_answers(tmp_path, monkeypatch):
         assert np.abs(mesh.vertices).max() < 1.5
         with pytest.raises(MissingPeerError, match="no benchmark scene 'none'"):
             blender._ask("open_benchmark", "none", tmp_path, (1, 1), "perspective")
-        blender._child._process.kill()
+        [process] = active_children()
+        process.kill()
         with pytest.raises(MissingPeerError, match="ended without an answer to 'cycles'"):
             blender.render("cycles")
         assert blender.render("cycles") > 0  # a new one opens the scene again

@@ -66,7 +66,7 @@ def _export_viewport():
 
 def _export_render():
     with temporary_scene(bpy.context.scene, bpy.context.view_layer.name) as copy:
-        return export_for_render(copy)[:2]
+        return export_for_render(copy)
 
 
 @pytest.fixture
@@ -85,7 +85,7 @@ def shown_otherwise(monkeypatch):
 
     def change(changed):
         real = compare_module._picture
-        picture = lambda pixels, **options: real(changed(pixels), **options)  # noqa: E731
+        picture = lambda pixels, owners, **more: real(changed(pixels), owners, **more)  # noqa: E731
         monkeypatch.setattr(compare_module, "_picture", picture)
 
     return change

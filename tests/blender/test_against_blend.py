@@ -72,7 +72,7 @@ def test_the_engine_that_a_blend_is_set_to_is_not_the_pictures(engine, scene, dr
 def test_blenders_own_png_of_16_bits(mode, scene, drawn, judged, tmp_path):
     scene.render.film_transparent = mode == "RGBA"
     drawn(mode, "16", view_transform="Standard")
-    assert images.read_picture(tmp_path / "drawn.png").levels == 65535
+    assert images.open_picture(tmp_path / "drawn.png").read().levels == 65535
     code, found, _ = judged()
     assert code == 0 and found["pixels"]["agree"] == found["pixels"]["total"]
 

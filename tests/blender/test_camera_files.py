@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -16,6 +17,7 @@ import pytest
 from reference_tracer.blender.jobs.cameras import cameras
 from reference_tracer.blender.jobs.choice import chosen
 from reference_tracer.blender.jobs.compare import gather_case
+from reference_tracer.blender.ui.scene_operators import REFERENCE_TRACER_OT_export_camera
 from reference_tracer.camera_files.convention import View
 from reference_tracer.camera_files.files import WRITTEN, read
 from reference_tracer.camera_files.files import chosen as named
@@ -167,6 +169,17 @@ def test_the_button_writes_what_the_command_does(name, written, scene, tmp_path,
         other = theirs / file.name if ours.is_dir() else theirs
         assert file.read_bytes() == other.read_bytes()
     assert bpy.context.scene.frame_current == 1
+
+
+@pytest.mark.parametrize(
+    ("convention", "typed", "file"),
+    [("gltf", "a.json", "a.gltf"), ("colmap", "a.xml", "a"), ("nerf", "a.v2", "a.v2")],
+)
+def test_the_file_takes_the_ending_of_its_convention(convention, typed, file, tmp_path):
+    """A folder has none; what is no convention's ending is part of the name."""
+    button = SimpleNamespace(convention=convention, filepath=str(tmp_path / typed))
+    is_other = REFERENCE_TRACER_OT_export_camera.check(button, None)
+    assert (button.filepath, is_other) == (str(tmp_path / file), typed != file)
 
 
 def test_the_button_says_what_cannot_be_said(scene, tmp_path):

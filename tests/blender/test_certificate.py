@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import bpy
 import pytest
-from reference_tracer.blender import evaluating
+from reference_tracer.blender.jobs import compare as compare_module
 from reference_tracer.blender.jobs.compare import gather_case
 from reference_tracer.pictures.certificate import CameraMismatchError
 
@@ -14,14 +14,14 @@ from reference_tracer.pictures.certificate import CameraMismatchError
 def test_another_camera_is_refused_before_any_picture(build, monkeypatch):
     build.scene()
     build.corner_camera()
-    real = evaluating.export
+    real = compare_module.export
 
     def shifted(depsgraph, known=None):
         scene, manifest = real(depsgraph, known)
         window = replace(scene.camera.window, left=scene.camera.window.left * 1.1)
         return replace(scene, camera=replace(scene.camera, window=window)), manifest
 
-    monkeypatch.setattr(evaluating, "export", shifted)
+    monkeypatch.setattr(compare_module, "export", shifted)
     with pytest.raises(CameraMismatchError, match="not Blender's"):
         gather_case(bpy.context)
     with pytest.raises(RuntimeError, match="not Blender's"):

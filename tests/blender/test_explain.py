@@ -90,7 +90,7 @@ def test_what_cannot_be_explained_is_said(suzanne):
     bpy.context.scene.camera = None
     with pytest.raises(RuntimeError, match="camera"):
         ops.explain(**PIXEL)
-    assert results.latest(Kind.PIXEL, bpy.context.scene) is None
+    assert results.content(Kind.PIXEL, bpy.context.scene) is None
     assert not any(t.get(MARK) for t in bpy.data.texts)
 
 

@@ -85,7 +85,7 @@ def test_while_others_are_busy_it_is_asked_now_and_then(make, monkeypatch):
     show = shows.SHOWS["DIFFERENCE"]
     kept = SimpleNamespace(scene=lambda camera: scene)
     live, engine = view.LiveView(), SimpleNamespace(tag_redraw=lambda: None)
-    live._job = view.Job(view.Wanted("", 0, Settings(), show, 0), kept, scene.camera, 1)
+    live._job = view.Job(view.Wanted(scene.camera, 0, Settings(), show, 0), kept, 1)
     while not asked:
         live.tick(engine)
     before = len(asked)

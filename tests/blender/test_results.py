@@ -97,12 +97,12 @@ def test_the_result_stays_when_the_file_is_saved_and_goes_with_another(build, co
     result_of(results.keep_comparison(compare(), bpy.context.scene.session_uid))
     for name in ("first", "second"):
         save(tmp_path / f"{name}.blend")
-        assert results.latest(Kind.COMPARISON, bpy.context.scene).regions is not None
+        assert results.content(Kind.COMPARISON, bpy.context.scene)
     with pytest.raises(RuntimeError, match="Cannot read"):
         bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "missing.blend"))
-    assert results.latest(Kind.COMPARISON, bpy.context.scene)
+    assert results.content(Kind.COMPARISON, bpy.context.scene)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert results.latest(Kind.COMPARISON, bpy.context.scene) is None
+    assert results.content(Kind.COMPARISON, bpy.context.scene) is None
 
 
 def test_the_result_follows_its_scene_and_not_a_name(build, monkeypatch):
@@ -116,8 +116,8 @@ def test_the_result_follows_its_scene_and_not_a_name(build, monkeypatch):
     monkeypatch.setattr(results, "keep_comparison", renamed_before)
     bpy.ops.reference_tracer.compare()
     other = bpy.data.scenes.new(name)
-    assert results.latest(Kind.COMPARISON, scene)
-    assert results.latest(Kind.COMPARISON, other) is None
+    assert results.content(Kind.COMPARISON, scene)
+    assert results.content(Kind.COMPARISON, other) is None
 
 
 def test_a_file_that_is_saved_has_none_of_it(tmp_path):
@@ -191,4 +191,4 @@ def test_a_comparison_that_fails_leaves_no_other_one_on_the_screen(build):
     camera.data.type = "PANO"
     with pytest.raises(RuntimeError, match="fisheye"):
         bpy.ops.reference_tracer.compare()
-    assert results.latest(Kind.COMPARISON, bpy.context.scene) is None and not named()
+    assert results.content(Kind.COMPARISON, bpy.context.scene) is None and not named()

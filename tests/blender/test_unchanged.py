@@ -198,7 +198,7 @@ def test_nothing_is_changed(shading, judge, user_scene, tmp_path):
 @pytest.mark.parametrize(
     ("module", "where"),
     [
-        (compare_module, "export_certified"),
+        (compare_module, "export"),
         (drawings, "prepare_scene"),
         (drawings, "stand_ins"),
         (drawings, "picture"),

@@ -240,3 +240,12 @@ def test_kubrics_k_is_of_a_camera_that_looks_along_minus_z(in_pixels, tmp_path):
     assert [view.name for view in found] == ["rgba_00000.png", "rgba_00001.png"]
     for view, own in zip(found, views, strict=True):
         assert same(view.camera, own.camera)
+
+
+def test_kubrics_positions_are_a_list(tmp_path):
+    path = tmp_path / "metadata.json"
+    content = json.loads(kubric([View(any_camera(np.random.default_rng(9)), "a.png")], 1, 1))
+    content["camera"]["positions"] = 5
+    path.write_text(json.dumps(content), encoding="utf-8")
+    with pytest.raises(SceneError, match=r"camera\.positions must be a list"):
+        read(path)

@@ -40,14 +40,14 @@ def own():
 def with_k(camera, change):
     """The camera with its (fx, fy, cx, cy) changed."""
     k = frame.matrix_of(*change(*frame.intrinsics(camera)))
-    return frame.pinhole(k, frame.camera_from_world(camera), (WIDTH, HEIGHT), None, "")
+    return frame.pinhole(k, frame.camera_from_world(camera), (WIDTH, HEIGHT), "").camera
 
 
 def with_world(camera, change):
     """The camera with its (4, 4) matrix from OpenCV's camera space changed."""
     cv = np.linalg.inv(frame.camera_from_world(camera))
     k = frame.matrix_of(*frame.intrinsics(camera))
-    return frame.pinhole(k, np.linalg.inv(change(cv)), (WIDTH, HEIGHT), None, "")
+    return frame.pinhole(k, np.linalg.inv(change(cv)), (WIDTH, HEIGHT), "").camera
 
 
 def shift_left_out(camera):
@@ -127,7 +127,7 @@ def in_opencv(camera, change):
     pose = frame.camera_from_world(camera)
     r, t = change(pose[:3, :3], pose[:3, 3], camera.origin)
     k = frame.matrix_of(*frame.intrinsics(camera))
-    return frame.pinhole(k, frame.pose(r, t), (WIDTH, HEIGHT), None, "")
+    return frame.pinhole(k, frame.pose(r, t), (WIDTH, HEIGHT), "").camera
 
 
 def inverse_of_opencv(camera):
@@ -309,7 +309,7 @@ def test_a_camera_that_no_known_mistake_makes_gets_no_name(own):
     """A skew is none of the faults: it is measured, and nothing is said to be the reason."""
     k = frame.matrix_of(*frame.intrinsics(own))
     k[0, 1] = 40
-    other = frame.pinhole(k, frame.camera_from_world(own), (WIDTH, HEIGHT), None, "")
+    other = frame.pinhole(k, frame.camera_from_world(own), (WIDTH, HEIGHT), "").camera
     found = difference(own, other)
     assert not found.agrees and found.steps == ()
     assert "no known fault" in found.lines()[-1]

@@ -38,7 +38,7 @@ def test_no_step_is_long_where_surfaces_coincide(make, monkeypatch, orthographic
         monkeypatch.setattr(kind, name, counted)
 
     counting(DepthBuffer, "enter", lambda buffer, pixel, *_: len(pixel))
-    counting(Decisions, "by_order", lambda decisions, found, nearest: len(found.ray))
+    counting(Decisions, "by_order", lambda decisions, found: len(found.ray))
     counting(Prepared, "meet", lambda prepared, rays, surface: len(surface))
     camera = make.camera(WIDTH, HEIGHT, half=2.0, orthographic=orthographic)
     quad = make.quad(-9, 9, -9, 9, -2)

@@ -18,7 +18,7 @@ from reference_tracer_processes.sandbox import sandbox
 PROJECT = Path(__file__).parents[2]
 RENDERER = PROJECT / "packages" / "conformance" / "examples" / "embreex_obj.py"
 MATRICES = 'K, R, t = (np.array(camera[key]) for key in "KRt")'
-DIRECTIONS = "(len(x), 3)), np.stack((x, y, one)"
+DIRECTIONS = "np.stack((x, y), axis=1)"
 WRONG = {  # what is written in place of what, and what is said of it
     "half": (" + 0.5, np.arange(height) + 0.5", ", np.arange(height)", "the pixels' corners"),
     "rows": ("(255 * rgba)", "(255 * rgba[::-1])", "mirrored upside down"),

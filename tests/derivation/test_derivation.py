@@ -201,8 +201,3 @@ def test_a_miss_of_float32_is_said(make):
                 assert said == (word in wrong), (x, kind)
                 told[word] += said
     assert told["rejects"] > 0  # or the test has seen nothing
-
-
-def test_half_a_pixel_is_none(one_triangle):
-    with pytest.raises(SceneError, match="integer"):
-        derive(one_triangle(FACING), 0.5, 1)

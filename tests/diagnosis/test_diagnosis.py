@@ -11,8 +11,10 @@ import trimesh
 from reference_tracer.causes.case import MOST_VARIANTS, WHOLE, Variant
 from reference_tracer.comparison.comparing import diagnosed, trace_and_compare
 from reference_tracer.diagnosis.faults import FAULTS
+from reference_tracer.diagnosis.faults.changes import SCALED
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
 from reference_tracer.diagnosis.faults.painted import Painted
+from reference_tracer.diagnosis.faults.pose import Posed
 from reference_tracer.diagnosis.faults.triangles import Triangles
 from reference_tracer.diagnosis.variants import ASKING
 from reference_tracer.pictures.picture import Picture
@@ -48,11 +50,11 @@ MADE = [
     ("object_missing", Guess(object="Ball")),
     ("rotation_left_out", Guess(object="Box")),
     ("place_left_out", Guess(object="Ring")),
-    ("object_scaled", Numbers((1.15,), object="Ball")),
-    ("object_scaled", Numbers((0.1,), object="Drum")),
+    ("object_scaled", Posed((1.15,), object="Ball", change=SCALED[0])),
+    ("object_scaled", Posed((0.1,), object="Drum", change=SCALED[0])),
     ("scene_scaled", Numbers((0.1,))),
-    ("object_moved", Numbers((0.2, -0.1, 0.15), object="Box")),
-    ("object_twice", Numbers((0.9, 0.3, 0.8), object="Ball")),
+    ("object_moved", Posed((0.2, -0.1, 0.15), object="Box")),
+    ("object_twice", Posed((0.9, 0.3, 0.8), object="Ball")),
     ("recolored", Numbers((0.1, 0.8, 0.9), object="Drum")),
     ("rows", Guess()),
     ("row_off", Option(0)),
@@ -195,7 +197,7 @@ ALIKE = [
     ("focal_length", Numbers((0.5,)), {"pixel_offset", "roll"}),
     ("object_missing", Guess(object="Ball"), {"recolored", "processed", "object_moved"}),
     ("recolored", Numbers((0.3, 0.9, 0.1), object="Box"), {"object_missing", "processed"}),
-    ("object_moved", Numbers((0.3, 0.0, 0.0), object="Ball"), {"object_scaled", "object_twice"}),
+    ("object_moved", Posed((0.3, 0.0, 0.0), object="Ball"), {"object_scaled", "object_twice"}),
     ("rows", Guess(), {"mirrored_x"}),
 ]
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.diagnosis.faults.changes import MOVED, SCALED
 from reference_tracer.diagnosis.faults.fault import Numbers
+from reference_tracer.diagnosis.faults.pose import Posed
 
 from .diagnosing import fitted, pictured
 
@@ -31,7 +33,9 @@ def found_again(few, seed, size):
     name = list(KINDS)[seed % len(KINDS)]
     scene = few(*size, parallel=rng.random() < 0.25, seed=seed)
     values = tuple(float(v) for v in KINDS[name](rng))
-    guess = Numbers(values, object=str(rng.choice(OBJECTS)) if "object" in name else "")
+    change = {"object_moved": MOVED[0], "object_scaled": SCALED[0]}.get(name)
+    named = str(rng.choice(OBJECTS)) if change else ""
+    guess = Posed(values, object=named, change=change) if change else Numbers(values)
     color = pictured(scene, name, guess)
     found = fitted(scene, color, name)
     if found is None:
@@ -62,7 +66,7 @@ def test_numbers_as_good_are_found_nearly_always(few, part):
 def test_an_object_that_sinks_is_told_as_it_is(few):
     """Its distance is hardly seen: of all moves that fit, that with zeros is the right one."""
     scene = few(96, 54)
-    color = pictured(scene, "object_moved", Numbers((0, 0, -0.06), object="Box"))
+    color = pictured(scene, "object_moved", Posed((0, 0, -0.06), object="Box"))
     found = fitted(scene, color, "object_moved")
     assert found.values[:2] == (0, 0) and found.values[2] == pytest.approx(-0.06, abs=0.01)
 
@@ -72,7 +76,7 @@ def test_what_an_orthographic_camera_cannot_see_is_left_open(few):
     scene = few(parallel=True)
     move = (0.2, 0.1, 0)
     found = fitted(
-        scene, pictured(scene, "object_moved", Numbers(move, object="Box")), "object_moved"
+        scene, pictured(scene, "object_moved", Posed(move, object="Box")), "object_moved"
     )
     away = scene.camera.forward
     open_ = np.subtract(found.high, found.low)

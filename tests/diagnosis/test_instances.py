@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.diagnosis.faults.fault import Numbers
+from reference_tracer.diagnosis.faults.pose import Posed
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance
 
@@ -52,7 +52,7 @@ def test_one_object_is_no_several(scattered):
 
 def test_what_is_shown_elsewhere_is_not_missing(scattered):
     """The boxes' and the drum's own pixels show what is behind them in both pictures."""
-    color = pictured(scattered, "object_moved", Numbers((1.5, 0.3, 0.4), object="Box"))
+    color = pictured(scattered, "object_moved", Posed((1.5, 0.3, 0.4), object="Box"))
     gone = without(scattered, (4,))
     there = render(scattered).color
     color = np.where((gone != there).any(axis=-1, keepdims=True), gone, color)

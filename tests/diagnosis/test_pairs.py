@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.diagnosis.faults.fault import Numbers
+from reference_tracer.diagnosis.faults.pose import Posed
 from reference_tracer.diagnosis.trial import LOOKED_AT
 from reference_tracer.files.images import curve_undone
 from reference_tracer.rendering import render
@@ -51,7 +52,7 @@ def test_half_a_pixel_is_found_in_linear_colours(scene):
     ],
 )
 def test_a_moved_object_is_found_behind_a_curve(scene, change, told):
-    moved = pictured(scene, "object_moved", Numbers((0.3, -0.2, 0.1), object="Ball"))
+    moved = pictured(scene, "object_moved", Posed((0.3, -0.2, 0.1), object="Ball"))
     found = diagnosis_of(scene, of_rgb(moved, change))
     assert found.causes.transform == told
     assert names(found)[0] == "object_moved"

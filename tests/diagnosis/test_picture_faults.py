@@ -20,7 +20,7 @@ from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.colors import COLOR_FAULTS
 from reference_tracer.diagnosis.faults.fault import Numbers
 from reference_tracer.diagnosis.faults.picture import PICTURE_FAULTS
-from reference_tracer.diagnosis.faults.sizes import resized
+from reference_tracer.diagnosis.faults.sizes import Way, resized
 from reference_tracer.files.images import curve, curve_undone
 from reference_tracer.pictures.curves import CURVES
 from reference_tracer.pictures.picture import Picture
@@ -227,7 +227,12 @@ def test_it_gets_its_name_and_no_other(quads, name, change):
 @pytest.mark.parametrize("linearly", [True, False])
 def test_a_picture_of_half_the_size_is_resampled(quads, linearly):
     small = resolved(quads, 0.5)
-    large = resized(small, (48, 72)) if linearly else small.repeat(2, axis=0).repeat(2, axis=1)
+    every = np.ogrid[:48, :72]
+    large = (
+        resized(small, (48, 72), Way.LINEAR, every)
+        if linearly
+        else small.repeat(2, axis=0).repeat(2, axis=1)
+    )
     assert set(told(quads, large)) == {"resampled"}
 
 

@@ -14,7 +14,7 @@ from reference_tracer.diagnosis.faults import FAULTS
 from reference_tracer.diagnosis.faults.changes import SCALED
 from reference_tracer.diagnosis.faults.changes import TURNED as TURNS
 from reference_tracer.diagnosis.faults.fault import Guess, Numbers, Option
-from reference_tracer.diagnosis.faults.fitting import Traced
+from reference_tracer.diagnosis.faults.fitting import traced
 from reference_tracer.diagnosis.faults.looked import Looked
 from reference_tracer.diagnosis.faults.pose import Posed
 from reference_tracer.diagnosis.faults.stand import TURNED
@@ -37,9 +37,9 @@ def test_an_orthographic_camera_that_turns_leaves_what_was_near_its_rays(few):
     scene = scene.seen_by(replace(scene.camera, world_from_camera=matrix))
     color = pictured(scene, "camera_turned", Numbers(turn))
     found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
-    traced = Traced(Evidence(found.case, found.frame, found.causes), TURNED.camera)
-    assert not result_of(traced.right((0.0, 0.0, 0.0))).all()
-    assert result_of(traced.right(turn)).all()
+    right = traced(Evidence(found.case, found.frame, found.causes), TURNED.camera)
+    assert not result_of(right((0.0, 0.0, 0.0))).all()
+    assert result_of(right(turn)).all()
 
 
 @pytest.mark.slow
@@ -67,7 +67,7 @@ def test_a_unit_of_a_move_is_a_pixel_across_and_up(few):
     scene = few()
     camera = replace(scene.camera, window=scene.camera.window.scaled(1, 2))
     scene = scene.seen_by(camera)
-    color = pictured(scene, "object_moved", Numbers((0.1, 0, 0.1), object="Box"))
+    color = pictured(scene, "object_moved", Posed((0.1, 0, 0.1), object="Box"))
     found = result_of(trace_and_compare(case_of(scene, Picture(color), curves=())))
     looked = result_of(Looked.of(Evidence(found.case, found.frame, found.causes), "Box"))
     middle = camera.origin + looked.depth * camera.forward
@@ -80,7 +80,7 @@ def test_a_unit_of_a_move_is_a_pixel_across_and_up(few):
 def test_an_object_that_moves_by_a_fraction_of_a_pixel(few):
     """Fitted roughly, it would break as many pixels at its edges as it settles."""
     scene = few(384, 216)
-    color = pictured(scene, "object_moved", Numbers((0, 0.004, -0.003), object="Box"))
+    color = pictured(scene, "object_moved", Posed((0, 0.004, -0.003), object="Box"))
     found = told(scene, color, "object_moved", "object_missing")
     assert list(found) == ["object_moved"] and found["object_moved"].guess.object == "Box"
 
@@ -239,7 +239,7 @@ def test_what_cannot_be_told_apart_is_told_together(few):
 def test_an_object_that_is_moved_is_not_turned_nor_larger(few, by):
     """The second comes nearer to the camera."""
     scene = few(160, 100)
-    color = pictured(scene, "object_moved", Numbers(by, object="Ball"))
+    color = pictured(scene, "object_moved", Posed(by, object="Ball"))
     assert next(iter(told(scene, color, *FAMILY))) == "object_moved"
 
 

@@ -23,7 +23,7 @@ def test_what_is_told_lies_between_its_ends(seed):
         return np.arange(100) < np.max(height[np.abs(values[0] - middle) < half], initial=0)
         yield
 
-    search = Search(right, (1.0,))
+    search = Search(right, np.eye(1))
     guess = result_of(search.guess([(0.0,)]))
     assert guess.low <= guess.values <= guess.high
     most = result_of(search.count(guess.values))
@@ -45,7 +45,7 @@ def test_the_place_with_the_most_right_pixels_is_found(count):
         return (beside > away) == (away < 0)
         yield
 
-    guess = result_of(Search(right, np.ones(count)).guess([(0.0,) * count], 1 / 8))
+    guess = result_of(Search(right, np.eye(count)).guess([(0.0,) * count], 1 / 8))
     assert np.abs(np.subtract(guess.values, right_numbers)).max() < 0.01
     if count == 1:
         assert guess.low <= tuple(right_numbers) <= guess.high
@@ -60,7 +60,7 @@ def test_what_is_not_seen_is_left_open():
         return found & ((abs(values[1]) < 3) | (abs(edges - 0.1) < 0.2))
         yield
 
-    search = Search(right, [[0.5], [0.0]], unseen=np.array([[0.0], [0.5]]))
+    search = Search(right, np.array([[0.5], [0.0]]), unseen=np.array([[0.0], [0.5]]))
     guess = result_of(search.guess([(0.0, 0.0)], 1 / 8))
     assert abs(guess.values[0] - 0.1) < 0.01
     assert 2.75 < guess.high[1] < 4 and -4 < guess.low[1] < -2.75
@@ -74,7 +74,7 @@ def test_of_what_is_not_seen_no_far_place_is_told():
         return np.full(100, abs(x - y - 0.3) < 0.02 and x + y > 0.1)
         yield
 
-    search = Search(right, [[0.5], [-0.5]], unseen=np.array([[0.5], [0.5]]))
+    search = Search(right, np.array([[0.5], [-0.5]]), unseen=np.array([[0.5], [0.5]]))
     guess = result_of(search.guess([(0.25, -0.05)], 1 / 8))
     assert np.abs(guess.values).max() < 1 and guess.high[0] > 10
     assert guess.low <= guess.values <= guess.high
@@ -87,7 +87,7 @@ def test_a_plateau_has_an_end():
         return np.ones(4, bool)
         yield
 
-    guess = result_of(Search(right, np.ones(3)).guess([(0.0, 0.0, 0.0)]))
+    guess = result_of(Search(right, np.eye(3)).guess([(0.0, 0.0, 0.0)]))
     assert np.abs((guess.low, guess.high)).max() < 1e5
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer.files import images, png
-from reference_tracer.files.images import read_picture
+from reference_tracer.files.images import open_picture
 
 from .png_files import png_file
 
@@ -24,7 +24,7 @@ def test_a_png_is_read_whole(kind, channels, depth, tmp_path, rng):
     stored = rng.integers(0, 2**depth, (5, 7, channels)).astype(f">u{depth // 8}")
     gamma = b"gAMA", struct.pack(">I", 100_000)
     png_file(tmp_path / "p.png", (7, 5), depth, kind, [r.tobytes() for r in stored], gamma)
-    read = read_picture(tmp_path / "p.png")
+    read = open_picture(tmp_path / "p.png").read()
     straight = stored[::-1].astype(float) / (2**depth - 1)
     color = np.repeat(straight[..., :1], 3, -1) if channels < 3 else straight[..., :3]
     alpha = straight[..., -1:] if channels in (2, 4) else np.ones((5, 7, 1))
@@ -114,7 +114,7 @@ def test_every_kind_of_png_is_what_pillow_reads(kind, depth, clear, interlaced, 
 def test_the_upper_bits_of_a_clear_level_say_nothing(tmp_path):
     """The specification, 11.3.1.1: they are masked."""
     png_file(tmp_path / "p.png", (4, 1), 2, 0, [[0b00011011]], (b"tRNS", b"\xff\xfe"))
-    assert read_picture(tmp_path / "p.png").color[0, :, 3].tolist() == [1, 1, 0, 1]
+    assert open_picture(tmp_path / "p.png").read().color[0, :, 3].tolist() == [1, 1, 0, 1]
 
 
 SRGB_CHROMATICITIES = 31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000
@@ -142,7 +142,7 @@ SRGB_CHROMATICITIES = 31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000
 )
 def test_what_a_png_says_of_its_pixels_is_told(chunks, remarks, tmp_path):
     png_file(tmp_path / "p.png", (2, 1), 8, 2, [bytes(6)], *chunks)
-    found = read_picture(tmp_path / "p.png").remarks
+    found = open_picture(tmp_path / "p.png").read().remarks
     assert len(found) == len(remarks)
     for one, remark in zip(found, remarks, strict=True):
         assert re.search(remark, one)
@@ -155,7 +155,7 @@ def test_what_a_png_says_of_its_pixels_is_told(chunks, remarks, tmp_path):
 def test_what_a_png_must_be_understood_by_is_refused(chunk_, message, tmp_path):
     png_file(tmp_path / "p.png", (2, 1), 8, 2, [bytes(6)], chunk_)
     with pytest.raises(OSError, match=message):
-        read_picture(tmp_path / "p.png")
+        open_picture(tmp_path / "p.png").read()
 
 
 def test_what_is_there_too_often_or_behind_the_end_is_told(tmp_path):

@@ -31,7 +31,7 @@ from reference_tracer.cli.opening import load  # noqa: E402
 from reference_tracer.derivation import document, reproducer  # noqa: E402
 from reference_tracer.derivation.derivation import derive_pixel  # noqa: E402
 from reference_tracer.errors import EXPECTED, words  # noqa: E402
-from reference_tracer.files.images import read_picture  # noqa: E402
+from reference_tracer.files.images import open_picture  # noqa: E402
 from reference_tracer.framing import Choice  # noqa: E402
 from reference_tracer.rendering import render  # noqa: E402
 from reference_tracer.scene import Region  # noqa: E402
@@ -53,7 +53,7 @@ def read(path: Path, thorough: bool) -> None:
     if (kind := path.stem.partition(" ")[0]) in OTHERS:
         OTHERS[kind](path)
     elif path.suffix in PICTURES:
-        picture = read_picture(path)
+        picture = open_picture(path).read()
         assert picture.color.dtype == np.float32 and picture.color.shape[2:] == (4,)
     elif path.suffix == ".json":
         pixel = reproducer.read(path)

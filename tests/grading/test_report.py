@@ -211,9 +211,9 @@ def test_an_example_of_every_mark(judged):
     """The terminal shows one pixel of each kind, not only of the first."""
     j = judged["swapped.py"]
     [found] = j.looks
-    first = j.examples[found.judged.name][0]
+    first = found.examples[0]
     other = replace(first, group="missed")
-    several = replace(j, examples={found.judged.name: [first, first, other]})
+    several = replace(j, looks=[replace(found, examples=[first, first, other])])
     pixels = [line for line in lines(several) if "reftrace explain" in line]
     assert len(pixels) == 2
     assert MARKS[Mark.WRONG_BARYCENTRICS] in pixels[0] and MARKS[Mark.MISSED] in pixels[1]

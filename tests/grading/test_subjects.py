@@ -99,7 +99,7 @@ def check_truth(name, step):
         names = min((exactly(program, cases.letters, p) | {"place": p} for p in hit),
                     key=lambda own: own.get("t", 0))  # fmt: skip
         names["owner"] = Fraction(names["place"][-1])
-        for part, place in zip(program.parts, columns(program.parts), strict=True):
+        for part, place in columns(program.parts):
             exact = [v for label in part.labels for v in np.ravel(names[label])]
             if part.unit:
                 exact = [float(v) for v in exact]

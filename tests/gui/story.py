@@ -172,9 +172,10 @@ def module(name):
 
 
 def result(kind="COMPARISON"):
-    """The latest result of a kind."""
+    """The latest result of a kind, if there is one."""
     results = module("blender.ui.results")
-    return results.latest(results.Kind[kind], window().scene)
+    found = results.latest(results.Kind[kind], window().scene)
+    return None if found.content is None else found
 
 
 def compared():

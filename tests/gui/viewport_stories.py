@@ -34,7 +34,7 @@ def viewport_pixels():
     for view in (frame, zoomed_border, parallel_camera, free, free_border, parallel):
         view()
         seen = yield from in_mode("RENDERED")
-        camera = live()[0].camera
+        camera = live()[0]._wanted.camera
         found = {"apart": apart(camera), "projection": camera.projection.name}
         solid = yield from in_mode("SOLID")
         noted[view.__name__] = found | beside(seen, solid, camera.region)
@@ -193,7 +193,7 @@ def two_views(found):
         one.spaces.active.shading.type = "RENDERED"
     yield from until(lambda: len(live()) == 2, 10)
     yield from settled()
-    found["heights"] = sorted(v.camera.height for v in live())
+    found["heights"] = sorted(v._wanted.camera.height for v in live())
     with bpy.context.temp_override(window=window(), area=min(both, key=lambda a: a.height)):
         bpy.ops.screen.area_close()
 

@@ -80,9 +80,9 @@ def test_blenders_header_says_which_engine_made_a_picture(make, tmp_path):
         file = OpenImageIO.ImageOutput.create(str(tmp_path / "picture.exr"))
         assert file.open(str(tmp_path / "picture.exr"), spec)
         assert file.write_image(np.zeros((3, 4, 4), F)) and file.close()
-        assert images.read_picture(tmp_path / "picture.exr").engine == engine
+        assert images.open_picture(tmp_path / "picture.exr").read().engine == engine
     exr.save(tmp_path / "own.exr", {"color": np.zeros((3, 4, 4), F)})
-    assert images.read_picture(tmp_path / "own.exr").engine == ""
+    assert images.open_picture(tmp_path / "own.exr").read().engine == ""
 
 
 def needles(make, count, above=-3.0):

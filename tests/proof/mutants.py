@@ -274,20 +274,14 @@ _TABLE = {
         (
             "who is alone is taken as sure",
             "certified/ladder.py",
-            "return found, alone & (found.doubt == SURE), surfaces",
-            "return found, alone, surfaces",
+            "clear = alone & (found.doubt == SURE)",
+            "clear = alone",
         ),
         (
             "the farther candidate wins",
             "certified/decisions.py",
-            "nearer = result == order.FARTHER",
-            "nearer = result == order.NEARER",
-        ),
-        (
-            "likewise in a tournament",
-            "certified/sweep/tournament.py",
-            "beaten = result == FARTHER",
-            "beaten = result == -FARTHER",
+            "beaten = result == order.FARTHER",
+            "beaten = result == order.NEARER",
         ),
         (
             "candidates are not sorted by their names",

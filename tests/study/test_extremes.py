@@ -182,7 +182,7 @@ def test_breaking_points():
     rows += [row(1.0, method="certified")]
     first, second = breaking_points(rows)
     assert (first.doubled, first.wrong, first.missed, first.lost) == (0.1, 0.01, 1e-3, 0.01)
-    assert second.never and not first.never and second.method == "certified"
+    assert second.method == "certified"
     assert second.lost is second.doubled is second.wrong is second.missed is None
 
 

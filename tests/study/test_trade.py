@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.study.advice import advice, gain, mark
-from reference_tracer.study.trade import COLUMNS, TIMED, TradeRow
+from reference_tracer.study.trade import COLUMNS, TradeRow
 from reference_tracer.tracer.settings import Precision
 
 
@@ -56,11 +56,9 @@ def test_marks_are_those_of_the_definition(seed):
 
 
 def test_every_field_that_is_measured_has_a_column():
-    """So each says whether it is timed: workers are compared by the columns that are not."""
     chosen = {"method", "precision", "samples", "width", "height"}
     marks = {c.best for c in COLUMNS if c.best}
     assert {f.name for f in fields(TradeRow)} == chosen | {c.name for c in COLUMNS} | marks
-    assert {"seconds", "rounds"} <= TIMED and not TIMED & {"wrong_pixels", "coverage_error"}
 
 
 def test_gain_is_that_of_the_rounds():

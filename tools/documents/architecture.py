@@ -44,12 +44,12 @@ blender/engine.py ReferenceTracerEngine.render
 """,
     "The button *Trace and Compare*": """
 blender/ui/long_work.py LongWork.invoke
-  blender/ui/long_work.py LongWork._begun
+  blender/ui/long_work.py LongWork._run
     blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
       blender/jobs/compare.py compare_open_file
         blender/jobs/compare.py gather_case
           blender/jobs/compare.py _Export
-            blender/evaluating.py export_certified
+            blender/reading/export.py export
           blender/drawing/drawings.py Plan.drawn
             blender/drawing/drawings.py Plan._drawn
               blender/drawing/drawings.py _turns
@@ -67,10 +67,9 @@ blender/ui/long_work.py LongWork.invoke
               diagnosis/guessing.py accounting
     blender/ui/operators.py REFERENCE_TRACER_OT_compare.show
       blender/ui/results.py keep_comparison
-blender/ui/long_work.py LongWork.modal
-  blender/ui/long_work.py LongWork._end
     blender/ui/operators.py REFERENCE_TRACER_OT_compare.finish
       comparison/comparison.py Comparison.verdict
+blender/ui/long_work.py LongWork.modal
 """,
     "The command `reftrace compare scene.blend`": """
 cli/main.py main

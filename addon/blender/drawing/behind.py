@@ -15,6 +15,7 @@ from bpy.types import Depsgraph, Object
 from ...arrays import Colors
 from ...causes.case import Behind, Case
 from ...manifest import Effect, Manifest, Unmodelled
+from ...pictures.identity import Owners
 from ...pictures.picture import Picture
 from ...scene import SceneError
 from ..reading.colors import slot_materials
@@ -24,7 +25,11 @@ from .drawings import Drawing, with_what_draws_itself
 
 
 def behind(
-    drawing: Drawing, case: Case, color_type: str, made: Callable[[Colors], Picture], identity: bool
+    drawing: Drawing,
+    case: Case,
+    color_type: str,
+    made: Callable[[Colors, Owners | None], Picture],
+    identity: bool,
 ) -> Behind | None:
     """Return the case without objects that are seen through; None if there are none.
 
@@ -37,27 +42,27 @@ def behind(
     color_type : str
         The user's own shading, which chooses the alpha that counts.
     made : callable
-        Makes the picture of its pixels.
+        Makes the picture of its pixels and their owners.
     identity : bool
         Whether to find each pixel's owner, too.
     """
-    if TRANSPARENCY in drawing.judge.ignores:
+    if TRANSPARENCY in drawing.plan.judge.ignores:
         return None
     left = _see_through(drawing.manifest, set(case.scene.objects), color_type)
     if not left:
         return None
-    plan = replace(drawing, left_out=tuple(left))
+    plan = replace(drawing.plan, left_out=tuple(left))
 
     def export_without(_: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
-        return Drawing.of(plan, *export(depsgraph))
+        return Drawing(plan, *export(depsgraph))
 
     try:
         drawn = plan.drawn(export_without, identity)
-        shown = replace(made(drawn.pixels), owners=drawn.owners)
+        shown = made(drawn.pixels, drawn.owners)
         shown, manifest = with_what_draws_itself(drawn.drawing, shown, identity)
     except (SceneError, RuntimeError):  # nothing is left that could be seen
         return None
-    rest = Case(drawn.scene, manifest, case.settings, shown, tracer=case.tracer)
+    rest = Case(drawn.drawing.exported, manifest, case.settings, shown, tracer=case.tracer)
     return Behind(rest, frozenset(u.object for u in left))
 
 

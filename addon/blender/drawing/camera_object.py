@@ -56,22 +56,16 @@ def copy_camera(scene: Scene, camera: Camera, name: str) -> Object:
         If no camera object sees so: what it takes is then a setting of the render.
     """
     _check_possible(scene.render, camera)
-    obj: Any = scene.camera.copy()
-    obj.data = scene.camera.data.copy()
-    obj.name = obj.data.name = name
-    obj.parent = None
-    obj.constraints.clear()
-    obj.animation_data_clear()
-    obj.data.animation_data_clear()
-    obj.delta_location = obj.delta_rotation_euler = (0, 0, 0)
-    obj.delta_rotation_quaternion = (1, 0, 0, 0)
-    obj.delta_scale = (1, 1, 1)
+    data: Any = scene.camera.data.copy()
+    data.name = name
+    data.animation_data_clear()
+    obj = bpy.data.objects.new(name, data)
     for collection in scene.camera.users_collection:
         collection.objects.link(obj)
     _set(obj, camera)
     off = camera_axes(obj.matrix_basis, name)[:3, :3] - camera.world_from_camera[:3, :3]
     if np.abs(off).max() > NEAR:
-        bpy.data.cameras.remove(obj.data)  # and the object with it
+        bpy.data.cameras.remove(data)  # and the object with it
         raise SceneError(
             "No camera object has these axes, which are not at right angles: Blender keeps a "
             "place, a rotation and a scale."

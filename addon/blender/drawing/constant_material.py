@@ -8,9 +8,8 @@ own. The temporary scene has no world: one may hold a fog.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
-from functools import partial
 from typing import Any, NamedTuple
 
 import bpy
@@ -49,7 +48,7 @@ def constant_colors(scene: Scene, depsgraph: Depsgraph) -> Iterator[None]:
             lamp.visible_camera = False
     scene.camera.evaluated_get(depsgraph).data.dof.use_dof = False
     material = made_for(scene, bpy.data.materials.new("Reference Tracer Constant"))
-    _emission(material, scene, depsgraph)
+    _emit(material, scene, depsgraph)
     scene.world = None
     [layer] = scene.view_layers
     layer.use_solid = True
@@ -82,26 +81,48 @@ def check_slots(scene: Traced, color_type: str) -> None:
             )
 
 
-def _emission(material: Material, scene: Any, depsgraph: Depsgraph) -> None:
+def emission(material: Material) -> Any:
+    """Have a material emit, and nothing else; return the socket of the colour."""
     material.use_nodes = True
     tree = material.node_tree
-    shading = scene.display.shading
     tree.nodes.clear()
-    emission = tree.nodes.new("ShaderNodeEmission")
+    node = tree.nodes.new("ShaderNodeEmission")
     output = tree.nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(emission.outputs[0], output.inputs["Surface"])
-    color: Any = emission.inputs["Color"]
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
+    return node.inputs["Color"]
+
+
+def _emit(material: Material, scene: Any, depsgraph: Depsgraph) -> None:
+    """Have a material emit the colours of a scene's solid shading."""
+    color = emission(material)
+    tree = material.node_tree
+    shading = scene.display.shading
     if shading.color_type == "SINGLE":
         color.default_value = (*shading.single_color, 1.0)
     else:
-        of_vertices = partial(_vertex_color, scene.view_layers[0].objects)
-        make: dict[str, Callable[..., Any]] = {"OBJECT": _object_color, "VERTEX": of_vertices}
-        own: Callable[..., Any] = make.get(shading.color_type, _material_color)
-        tree.links.new(own(tree, partial(_slots_of, depsgraph)), color)
+        objects = scene.view_layers[0].objects
+        tree.links.new(_color(tree, shading.color_type, depsgraph, objects), color)
 
 
-def _object_color(tree: NodeTree, _: object = None) -> NodeSocket:
-    return _attribute(tree, "OBJECT", "color").outputs["Color"]
+def _color(
+    tree: NodeTree, color_type: str, depsgraph: Depsgraph, objects: Collection[Any]
+) -> NodeSocket:
+    """Return a socket: the colour by a type of the solid shading.
+
+    By vertices, it is the active colour attribute, or what is shown of a mesh without one.
+    """
+    if color_type == "OBJECT":
+        return _attribute(tree, "OBJECT", "color").outputs["Color"]
+    if color_type != "VERTEX":
+        return _material_color(tree, depsgraph)
+    found = _color(tree, WITHOUT_ATTRIBUTE, depsgraph, objects)
+    # By name: Cycles itself would take the one that is active for renders.
+    for name in sorted(attribute_names(objects)):
+        # Its alpha is 0 where a mesh has none of this name.
+        node: Any = tree.nodes.new("ShaderNodeVertexColor")
+        node.layer_name = name
+        found = _where_found(tree, node, found)
+    return found
 
 
 def attribute_names(objects: Collection[Any]) -> set[str]:
@@ -121,21 +142,6 @@ def attribute_names(objects: Collection[Any]) -> set[str]:
 def _takes_from_elsewhere(obj: Object) -> bool:
     borrows = any(m.type in _BORROWING for m in obj.modifiers)
     return borrows or obj.instance_type != "NONE" or len(obj.particle_systems) > 0
-
-
-def _vertex_color(
-    objects: Collection[Any], tree: NodeTree, slots_of: Callable[[], _Slots]
-) -> NodeSocket:
-    """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
-    without = _material_color if WITHOUT_ATTRIBUTE == "MATERIAL" else _object_color
-    found = without(tree, slots_of)
-    # By name: Cycles itself would take the one that is active for renders.
-    for name in sorted(attribute_names(objects)):
-        # Its alpha is 0 where a mesh has none of this name.
-        node: Any = tree.nodes.new("ShaderNodeVertexColor")
-        node.layer_name = name
-        found = _where_found(tree, node, found)
-    return found
 
 
 class _Slots(NamedTuple):
@@ -180,9 +186,9 @@ def _slots_of(depsgraph: Depsgraph) -> _Slots:
     return slots
 
 
-def _material_color(tree: NodeTree, slots_of: Callable[[], _Slots]) -> NodeSocket:
+def _material_color(tree: NodeTree, depsgraph: Depsgraph) -> NodeSocket:
     """Return a socket: the viewport colour of the material in the face's slot, grey where empty."""
-    slots = slots_of()
+    slots = _slots_of(depsgraph)
     slot = _attribute(tree, "GEOMETRY", "material_index").outputs["Fac"]
     color = _color_of_slot(tree, 0, slots)
     for index in range(1, len(slots.colors)):

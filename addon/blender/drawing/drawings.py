@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, NamedTuple, TypeAlias
 
 import bpy
@@ -25,7 +26,7 @@ from ...pictures.picture import Picture
 from ...scene import Scene, SceneError
 from ..evaluating import evaluated
 from ..temporary import drawn, show_in, temporary_scene
-from ..turns import Turns
+from ..turns import Turns, once
 from .judge import Judge
 from .left_out import left_out, separable
 from .picture import picture, prepare_scene
@@ -69,7 +70,7 @@ class Plan:
             return self._drawn(export, identity)
         own = self.judge if self.judge.needs_window else None
         with self.prepared() as (tmp, used):
-            drawing = evaluated(tmp, own, _exported(tmp, used, export))
+            drawing = evaluated(tmp, own, once(partial(export, tmp, used)))
         return drawing.again(identity=identity)
 
     def _drawn(self, export: Export, identity: bool) -> Drawn:
@@ -87,39 +88,29 @@ def _is_changed(obj: Any) -> bool:
     return bool(obj.mode == "EDIT" or obj.reference_tracer.infinite_plane)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Drawing(Plan):
+class Drawing(NamedTuple):
     """A plan, and what was exported by it."""
 
+    plan: Plan
     exported: Scene
     manifest: Manifest
 
-    @classmethod
-    def of(cls, plan: Plan, exported: Scene, manifest: Manifest) -> Drawing:
-        """Return the drawing of what was exported by a plan, or by another drawing."""
-        return cls(**vars(plan) | {"exported": exported, "manifest": manifest})
-
     def again(self, features: Sequence[Unmodelled] = (), identity: bool = False) -> Drawn:
         """Draw the scene anew, without some features that draw themselves."""
-        plan = replace(self, left_out=(*self.left_out, *features))
-        return plan._drawn(lambda *_: Drawing.of(plan, self.exported, self.manifest), identity)
+        plan = replace(self.plan, left_out=(*self.plan.left_out, *features))
+        return plan._drawn(lambda *_: self._replace(plan=plan), identity)
 
 
 class Drawn(NamedTuple):
-    """Blender's drawing of one evaluation, with the scene exported from it."""
+    """Blender's drawing of one evaluation."""
 
-    drawing: Drawing
-    scene: Scene  # what was exported, its planes in the colours drawn
+    drawing: Drawing  # what was exported has its planes in the colours drawn
     pixels: Colors
     owners: Owners | None  # of each pixel, if requested and known
 
 
 # Exports an evaluated depsgraph, given the temporary scene and the settings that it is drawn with.
 Export: TypeAlias = Callable[[Any, dict[str, Any], Any], Drawing]
-
-
-def _exported(tmp: bpy.types.Scene, used: dict[str, Any], export: Export) -> Turns[Drawing]:
-    return export(tmp, used, (yield False))
 
 
 def _turns(
@@ -130,14 +121,15 @@ def _turns(
     drawing = export(tmp, used, depsgraph)
     manifest = drawing.manifest
     of_planes = manifest.owners[len(drawing.exported.instances) :]
-    scene = stand_ins(tmp, drawing.exported, of_planes)
-    gone = {(u.object, u.feature) for u in drawing.left_out}
+    drawing = drawing._replace(exported=stand_ins(tmp, drawing.exported, of_planes))
+    plan = drawing.plan
+    gone = {(u.object, u.feature) for u in plan.left_out}
     identity &= all((u.object, u.feature) in gone for u in separable(manifest))
     names = _owner_names(tmp) if identity else {}
-    by = drawing.judge, drawing.exported.camera, depsgraph
-    pixels = yield from picture(tmp, *by, drawing.like_for_like, not names)
+    by = plan.judge, drawing.exported.camera, depsgraph
+    pixels = yield from picture(tmp, *by, plan.like_for_like, not names)
     owners = (yield from _owners(drawing, tmp, names)) if names else None
-    return Drawn(drawing, scene, pixels, owners)
+    return Drawn(drawing, pixels, owners)
 
 
 def _owner_names(tmp: Any) -> dict[str, str]:
@@ -155,10 +147,11 @@ def _owners(drawing: Drawing, tmp: bpy.types.Scene, owners: Mapping[str, str]) -
     """Draw a temporary scene again, in a colour for each owner, and return each pixel's owner."""
     names = tuple(dict.fromkeys(owners.values()))
     colors = dict(zip(names, colors_of(len(names)), strict=True))
-    prepare_scene(tmp, drawing.judge, True)
+    judge = drawing.plan.judge
+    prepare_scene(tmp, judge, True)
     depsgraph = yield False
     show_in(tmp, depsgraph, {name: colors[owner] for name, owner in owners.items()})
-    pixels = yield from picture(tmp, drawing.judge, drawing.exported.camera, depsgraph)
+    pixels = yield from picture(tmp, judge, drawing.exported.camera, depsgraph)
     return Owners.of(names, decode(pixels, len(names)), drawing.manifest.owners)
 
 

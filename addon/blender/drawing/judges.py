@@ -61,15 +61,14 @@ def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge
         return CYCLES if is_panorama else rasteriser
     if name == ENGINE:
         raise SceneError("No engine is named: type its name below Compare With, as MY_ENGINE.")
-    judge = JUDGES.get(name.lower())
-    if judge is None:
+    known = JUDGES
+    if name.lower() not in known:
         from .engines import others
 
-        here = others()
-        judge = here.get(name.lower())
-        if judge is None:
-            names = ", ".join((*JUDGES, *here))
-            raise SceneError(f"There is no judge '{name}': choose one of auto, {names}.")
+        known = JUDGES | others()
+    judge = known.get(name.lower())
+    if judge is None:
+        raise SceneError(f"There is no judge '{name}': choose one of auto, {', '.join(known)}.")
     if is_panorama and not judge.traces_rays:
         raise SceneError(f"{judge.label} draws no panoramas: compare with Cycles.")
     return judge

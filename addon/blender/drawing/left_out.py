@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import numpy as np
-from bpy.types import Scene
+from bpy.types import ParticleSettings, Scene
 
 from ...manifest import Effect, Manifest, Unmodelled
 from ..reading.unmodelled import HAIR, is_hair
@@ -30,29 +30,26 @@ def left_out(tmp: Scene, features: Sequence[Unmodelled]) -> Iterator[None]:
     old: set[Any] = {o for o in objects if str(o.type) == "GPENCIL"}  # 4.2 would not show it again
     leave_out(tmp, old | {o for o in objects if is_animated(o, *_HIDING)})
     hidden = dict.fromkeys(objects - old, np.bool_(True))
+    hair = _hair(growing)
     with ExitStack() as stack:
         for name in _HIDING:
             stack.enter_context(untold(bpy.data.objects, name, hidden))
-        stack.enter_context(_without_hair(growing))
+        for name in ("render_type", "display_method"):
+            items: Any = bpy.types.ParticleSettings.bl_rna.properties[name]
+            none = np.int32(items.enum_items["NONE"].value)
+            stack.enter_context(untold(bpy.data.particles, name, dict.fromkeys(hair, none)))
         yield
 
 
-@contextmanager
-def _without_hair(objects: set[str]) -> Iterator[None]:
-    """Draw no hair of some objects, by their names, for a while."""
-    settings = {
+def _hair(objects: set[str]) -> set[ParticleSettings]:
+    """Return the settings of all hair of some objects, by their names."""
+    return {
         system.settings
         for obj in bpy.data.objects
         if obj.name_full in objects
         for system in obj.particle_systems
         if is_hair(system.settings)
     }
-    with ExitStack() as stack:
-        for name in ("render_type", "display_method"):
-            items: Any = bpy.types.ParticleSettings.bl_rna.properties[name]
-            values = dict.fromkeys(settings, np.int32(items.enum_items["NONE"].value))
-            stack.enter_context(untold(bpy.data.particles, name, values))
-        yield
 
 
 def separable(manifest: Manifest) -> list[Unmodelled]:

@@ -12,6 +12,7 @@ import bpy
 from bpy.types import Context, Scene, View3DShading
 
 from ...manifest import Effect, Unmodelled
+from ..temporary import user_scene
 from .judge import Judge
 
 
@@ -50,7 +51,7 @@ def of_shading(scene: Scene, judge: Judge, anti_aliasing: str) -> Iterator[Unmod
     Only anti-aliasing can be checked: it mixes colours that the tracer sees.
     """
     shading = scene.display.shading
-    name = f"scene '{scene.name}'"
+    name = f"scene '{user_scene(scene).name}'"
     if not judge.solid:
         yield Unmodelled(name, "materials and light", f"of {judge.label}", None, Effect.LIGHT)
         return

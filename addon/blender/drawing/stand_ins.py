@@ -42,10 +42,8 @@ def stand_ins(tmp: Any, scene: Scene, owners: Sequence[str]) -> Scene:
         The exported scene as it is to be compared. Random colours come from names: there the planes
         take the colours of their polygons.
     """
-    marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
+    leave_out(tmp, {o for o in tmp.objects if o.reference_tracer.infinite_plane})
     planes: list[Plane] = []
-    if marked:
-        leave_out(tmp, marked)
     for plane, owner in zip(scene.planes, owners, strict=True):
         corners = polygon(scene.camera, plane)
         if len(corners):

@@ -20,15 +20,12 @@ def _without_anti_aliasing(scene: Scene, depsgraph: Depsgraph) -> Iterator[None]
     """
     import bpy
 
+    from ..values import values_restored
+
     preferences = bpy.context.preferences
-    before = preferences.system.viewport_aa
-    dirty = preferences.is_dirty
-    preferences.system.viewport_aa = "OFF"
-    try:
+    with values_restored([(preferences.system, "viewport_aa"), (preferences, "is_dirty")]):
+        preferences.system.viewport_aa = "OFF"
         yield
-    finally:
-        preferences.system.viewport_aa = before
-        preferences.is_dirty = dirty
 
 
 VIEWPORT = Judge(

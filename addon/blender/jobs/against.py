@@ -9,12 +9,13 @@ with colours that change between corners, no view transform is tried.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import bpy
 import numpy as np
@@ -35,7 +36,7 @@ from ..drawing.picture import read
 from ..evaluating import export_at
 from ..reading.export import export
 from ..reading.palettes import automatic, noted, palette_by
-from ..temporary import temporary_scene
+from ..temporary import made_for, temporary_scene
 from ..versions import set_format
 from .open_file import export_open_file
 from .variants import variants
@@ -64,7 +65,7 @@ def gather_against(
     palette, scene, manifest = exported_in(context, colors)
     judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
     layer = context.view_layer.name
-    drawing = Drawing.of(Plan(context.scene, layer, judge, palette=palette), scene, manifest)
+    drawing = Drawing(Plan(context.scene, layer, judge, palette=palette), scene, manifest)
     shown = picture if isinstance(picture, Picture) else picture(drawing)
     return Case(
         scene,
@@ -106,33 +107,22 @@ def alternatives(
     ):
         other, viewport = export(bpy.context.evaluated_depsgraph_get())
     drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))
-    out: list[_Hidden] = []
+    # By object: why it is hidden on one side, and what makes the scene without that flag.
+    hidden: dict[str, tuple[str, Callable[[Scene], Scene]]] = {}
     for name in sorted(seen.keys() & drawn.keys()):
         if drawn[name].hidden and seen[name].exported:
-            shown = partial(with_object, other=other, name=name)
-            out.append(_Hidden(name, drawn[name].reason, shown))
+            hidden[name] = drawn[name].reason, partial(with_object, other=other, name=name)
         elif seen[name].hidden and drawn[name].exported:
-            out.append(_Hidden(name, seen[name].reason, partial(without, names=[name])))
-    return (*_one_by_one_and_all(scene, out[:MOST]), *_frames(context, palette))
-
-
-class _Hidden(NamedTuple):
-    """An object that a flag hides for one side, and what the scene is without the flag."""
-
-    name: str
-    reason: str
-    shown_otherwise: Callable[[Scene], Scene]
-
-
-def _one_by_one_and_all(scene: Scene, hidden: Sequence[_Hidden]) -> Iterator[Alternative]:
-    """Yield the scene without each flag; then without all, as one object may lie before another."""
-    for name, reason, change in hidden:
-        yield Alternative(name, reason, change(scene))
-    if len(hidden) > 1:
-        for _, _, change in hidden:
-            scene = change(scene)
-        reasons = dict.fromkeys(one.reason for one in hidden)
-        yield Alternative("', '".join(h.name for h in hidden), ", ".join(reasons), scene)
+            hidden[name] = seen[name].reason, partial(without, names=[name])
+    out = []
+    every = scene
+    for name, (reason, change) in islice(hidden.items(), MOST):
+        out.append(Alternative(name, reason, change(scene)))
+        every = change(every)
+    if len(out) > 1:  # one object may lie before another
+        reasons = dict.fromkeys(one.reason for one in out)
+        out.append(Alternative("', '".join(one.object for one in out), ", ".join(reasons), every))
+    return (*out, *_frames(context, palette))
 
 
 def _frames(context: Context, palette: Palette) -> list[Alternative]:
@@ -185,18 +175,16 @@ def _shown(tmp: bpy.types.Scene, table: Colors) -> Iterator[tuple[str, Floats]]:
 
 def _saved(tmp: bpy.types.Scene, table: Colors) -> Floats:
     """Return colours (n, 3) as Blender writes them to a PNG of 16 bits, sRGB's curve undone."""
-    image: Any = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
-    try:
-        opaque = np.ones((len(table), 1), np.float32)
-        image.pixels.foreach_set(np.hstack((table, opaque)).ravel())
-        tmp.render.dither_intensity = 0.0
-        set_format(tmp.render, "PNG", "RGB", "16")
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "colours.png"
-            image.save_render(str(path), scene=tmp)
-            return curve_undone(read(tmp, path, "Non-Color")[0, :, :3].astype(np.float64))
-    finally:
-        bpy.data.images.remove(image)
+    own: Any = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
+    image = made_for(tmp, own)
+    opaque = np.ones((len(table), 1), np.float32)
+    image.pixels.foreach_set(np.hstack((table, opaque)).ravel())
+    tmp.render.dither_intensity = 0.0
+    set_format(tmp.render, "PNG", "RGB", "16")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "colours.png"
+        image.save_render(str(path), scene=tmp)
+        return curve_undone(read(tmp, path, "Non-Color")[0, :, :3].astype(np.float64))
 
 
 def _looked_up(table: Colors, shown: Floats) -> Any:

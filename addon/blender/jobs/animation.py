@@ -28,7 +28,7 @@ from ..values import values_restored
 from .choice import seen_by
 from .compare import compare_open_file
 from .open_file import Choices
-from .stepping import visited
+from .stepping import frame_restored, visited
 
 _DRAWS = "Blender draws the scene"
 _ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be imported here
@@ -76,24 +76,20 @@ def compare_frames(
     rows = [r for f in frames if (r := report.row_of_whole(folder, f, made[f]))]
     todo = sorted(set(frames) - {row.frame for row in rows})
     report.write(folder, title, frames, rows)
-    before = scene.frame_current, scene.frame_subframe
     takes = _DRAWS
-    with values_restored():
-        try:
-            for frame in visited(scene, todo):
-                share = sum(f < frame for f in todo) / len(todo)
-                yield Progress(share, f"frame {frame}: {takes}")
-                scene.frame_set(frame)
-                takes = announced(bpy.context.view_layer, _DRAWS)  # asked while all is evaluated
-                yield Progress(share, f"frame {frame}: {takes}")
-                if frame in todo:
-                    work = _compared(folder, frame, made[frame], views.get(frame), choices)
-                    work = scaled(work, share, 1 / len(todo), f"frame {frame}")
-                    rows.append((yield from work))
-                    report.write(folder, title, frames, rows)
-                    yield Found(rows, report.line(rows[-1]))
-        finally:
-            scene.frame_set(before[0], subframe=before[1])
+    with values_restored(), frame_restored(scene):
+        for frame in visited(scene, todo):
+            share = sum(f < frame for f in todo) / len(todo)
+            yield Progress(share, f"frame {frame}: {takes}")
+            scene.frame_set(frame)
+            takes = announced(bpy.context.view_layer, _DRAWS)  # asked while all is evaluated
+            yield Progress(share, f"frame {frame}: {takes}")
+            if frame in todo:
+                work = _compared(folder, frame, made[frame], views.get(frame), choices)
+                work = scaled(work, share, 1 / len(todo), f"frame {frame}")
+                rows.append((yield from work))
+                report.write(folder, title, frames, rows)
+                yield Found(rows, report.line(rows[-1]))
     return rows
 
 

@@ -18,16 +18,13 @@ from bpy.types import Object, RenderSettings, Scene, ViewLayer
 from ...camera_files.convention import View
 from ...framing import ANGLE, BACKWARD, Choice, axes_of, framing, shown_points
 from ...pictures.certificate import certify, known_points
-from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, SceneError, ViewWindow
+from ...scene import SceneError
 from ...tracer.camera import film_of
 from ..drawing.camera_object import add_camera, place_camera
 from ..evaluating import export_for_render
 from ..reading.camera import export_camera, pixel_height, resolution
-from ..temporary import temporary_scene
+from ..temporary import everything, made_for, temporary_scene
 from .stepping import bake_bodies, visited
-
-_FAR = 1e18  # metres: farther away than anything, and its square is within float32
 
 
 @contextmanager
@@ -43,11 +40,9 @@ def chosen(choice: Choice) -> Iterator[None]:
     scene = _named("scene", choice.scene_name, bpy.data.scenes) or context.scene
     own = context.view_layer if scene == context.scene else scene.view_layers[0]
     layer = _named("view layer", choice.view_layer, scene.view_layers) or own
-    cameras = [o for o in bpy.data.objects if o.type == "CAMERA"]
-    cameras.sort(
-        key=lambda o: o.library is None
-    )  # of one name, the file's own comes last: it counts
-    camera = _named("camera", choice.camera, cameras) or scene.camera
+    cameras = (o for o in bpy.data.objects if o.type == "CAMERA")
+    own_last = sorted(cameras, key=lambda o: o.library is None)  # of one name, the last one counts
+    camera = _named("camera", choice.camera, own_last) or scene.camera
     with context.temp_override(scene=scene, view_layer=layer):
         if choice.frame is not None:
             bake_bodies(scene, choice.frame)
@@ -140,16 +135,11 @@ def frame_all(scene: Scene, layer: ViewLayer, angle: float = ANGLE) -> Object:
     SceneError
         If nothing is shown.
     """
-    matrix = np.eye(4)
-    matrix[2, 3] = _FAR
-    window = ViewWindow(-_FAR, _FAR, -_FAR, _FAR)
-    everything = Camera(matrix, window, 4, 4, ORTHOGRAPHIC, 1e-6, 2 * _FAR, name="Everything")
-    with temporary_scene(scene, layer.name) as tmp:
-        looking: Any = place_camera(tmp, everything).data
-        try:
-            shown, _, _ = export_for_render(tmp)
-        finally:
-            bpy.data.cameras.remove(looking)  # and the object with it
+    with temporary_scene(scene, layer.name) as tmp, everything(tmp):
+        data = made_for(tmp, bpy.data.cameras.new("Everything"))
+        tmp.camera = made_for(tmp, bpy.data.objects.new(data.name, data))
+        tmp.collection.objects.link(tmp.camera)
+        shown, _ = export_for_render(tmp)
     size = resolution(scene.render)
     tall = pixel_height(scene.render)
     points = shown_points(shown.meshes, shown.instances)

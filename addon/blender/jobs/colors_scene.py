@@ -6,20 +6,24 @@ modifiers have put it. So a renderer that knows no more than meshes and emission
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import bpy
 import numpy as np
-from bpy.types import Context, Material, NodeTree, Object
+from bpy.types import Context, Material, Object
 from mathutils import Matrix
 
-from ...arrays import Colors, Floats
+from ...arrays import Colors, Floats, Integers
 from ...pictures.palette import By, eight_bits
-from ...scene import Mesh, Scene, SceneError
+from ...scene import Scene, SceneError
+from ..drawing.constant_material import emission
 from ..drawing.judges import RENDER_RESULT
 from ..reading.view_volume import polygon
 from .against import exported_in
+
+_Rgba = tuple[float, ...]
 
 # Settings copied from a scene's `render`: the picture's size, and its engine.
 _KEPT = (
@@ -89,21 +93,24 @@ def _set(scene: Any, user: Any) -> None:
 
 def _add_surfaces(scene: bpy.types.Scene, above: Any, exported: Scene) -> None:
     """Add an object for each instance and plane, below an empty."""
-    shown = {k: m for k, m in enumerate(exported.meshes) if k in exported.instance_meshes}
-    meshes = {k: _mesh(m.name, m.vertices, m.triangles, m) for k, m in shown.items()}
-    palette = _Palette()
+    meshes = {
+        k: _mesh(m.name, m.vertices, m.triangles, m.slots)
+        for k, m in enumerate(exported.meshes)
+        if k in exported.instance_meshes
+    }
+    made = cache(_material)  # one for each colour
     for instance in exported.instances:
         own = bpy.data.objects.new(exported.objects[instance.object], meshes[instance.mesh])
         _place(scene, own, above, instance.world_from_object)
-        palette.give(own, instance.colors)
+        _color(own, instance.colors, made)
     for plane in exported.planes:
         corners = polygon(exported.camera, plane)
         if len(corners):
             name = exported.objects[plane.object]
-            mesh = _mesh(name, corners, np.arange(len(corners))[None])
+            mesh = _mesh(name, corners, np.arange(len(corners))[None], np.zeros(1, np.int32))
             own = bpy.data.objects.new(name, mesh)
             _place(scene, own, above, np.eye(4))
-            palette.give(own, plane.color[None])
+            _color(own, plane.color[None], made)
 
 
 def _place(scene: bpy.types.Scene, obj: Object, above: Any, matrix: Floats) -> None:
@@ -113,46 +120,28 @@ def _place(scene: bpy.types.Scene, obj: Object, above: Any, matrix: Floats) -> N
     scene.collection.objects.link(obj)
 
 
-def _mesh(name: str, vertices: Floats, faces: Any, of: Mesh | None = None) -> bpy.types.Mesh:
+def _mesh(name: str, vertices: Floats, faces: Any, slots: Integers) -> bpy.types.Mesh:
     """Return a mesh of Blender's with as many empty material slots as its faces need."""
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(vertices.tolist(), [], faces.tolist())
-    slots = [0] * len(faces) if of is None else of.slots.tolist()
-    for _ in range(max(slots, default=0) + 1):
+    for _ in range(max(slots.tolist()) + 1):
         mesh.materials.append(None)
     mesh.polygons.foreach_set("material_index", slots)
     return mesh
 
 
-class _Palette:
-    """The materials of a scene, one for each colour."""
-
-    def __init__(self) -> None:
-        self._of: dict[bytes, Any] = {}
-
-    def give(self, obj: Object, colors: Sequence[Any] | Colors) -> None:
-        """Show an object in colours by its slots; a slot past the end has the last one."""
-        for number, slot in enumerate(obj.material_slots):
-            slot.link = "OBJECT"
-            slot.material = self._material(colors[min(number, len(colors) - 1)])
-        obj.color = (*map(float, colors[0][:3]), 1.0)
-
-    def _material(self, color: Any) -> Any:
-        key = color[:3].tobytes()
-        if key not in self._of:
-            self._of[key] = _emission(color[:3])
-        return self._of[key]
+def _color(obj: Object, colors: Colors, made: Callable[[_Rgba], Material]) -> None:
+    """Show an object in colours by its slots; a slot past the end has the last one."""
+    opaque = [(*map(float, color[:3]), 1.0) for color in colors]
+    for number, slot in enumerate(obj.material_slots):
+        slot.link = "OBJECT"
+        slot.material = made(opaque[min(number, len(opaque) - 1)])
+    obj.color = opaque[0]
 
 
-def _emission(color: Colors) -> Material:
-    rgba = (*map(float, color), 1.0)
-    material = bpy.data.materials.new("#" + eight_bits(color).tobytes().hex())
+def _material(rgba: _Rgba) -> Material:
+    name = "#" + eight_bits(np.array(rgba[:3], np.float32)).tobytes().hex()
+    material = bpy.data.materials.new(name)
     material.diffuse_color = rgba
-    material.use_nodes = True
-    tree: NodeTree = material.node_tree
-    tree.nodes.clear()
-    emission: Any = tree.nodes.new("ShaderNodeEmission")
-    emission.inputs["Color"].default_value = rgba
-    output = tree.nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    emission(material).default_value = rgba
     return material

@@ -17,7 +17,9 @@ from ...arrays import Colors
 from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
+from ...manifest import Manifest
 from ...pictures.certificate import CameraCertificate
+from ...pictures.identity import Owners
 from ...pictures.palette import VIEWPORT, By
 from ...pictures.picture import Picture
 from ...pictures.renderers import EMBREE, RASTER
@@ -35,9 +37,9 @@ from ..drawing.judge import Judge
 from ..drawing.judges import judge_or_none
 from ..drawing.rasteriser import snapping_of
 from ..drawing.shading import of_shading, solid_shading
-from ..evaluating import export_at, export_certified
+from ..evaluating import export_at
 from ..paths import made_folder
-from ..reading.camera import export_camera
+from ..reading.camera import certify_camera, export_camera
 from ..reading.export import export
 from ..reading.palettes import automatic, noted, palette_by
 from ..reading.unmodelled import by_handlers
@@ -76,15 +78,15 @@ def gather_case(context: Context, **choices: Any) -> Case:
     there = _names(user)
     is_automatic = plan.like_for_like and chosen.colors == By.AUTOMATIC
     exporting = _Export(plan, is_automatic)
-    drawing, scene, pixels, owners = plan.drawn(exporting, chosen.identity)
+    drawing, pixels, owners = plan.drawn(exporting, chosen.identity)
     made = partial(_picture, judge=judge, used=exporting.used, snapping=snapping)
-    shown = replace(made(pixels), owners=owners)
+    shown = made(pixels, owners)
     later = _a_frame_later(drawing) if chosen.self_check else None
     shown, manifest = with_what_draws_itself(drawing, shown, chosen.identity)
     if there != _names(user):
         manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(user)))
     case = Case(
-        scene,
+        drawing.exported,
         manifest,
         # Like for like, Blender's picture has one sample in a pixel: so has the traced one.
         replace(chosen.settings, samples=1) if plan.like_for_like else chosen.settings,
@@ -93,7 +95,7 @@ def gather_case(context: Context, **choices: Any) -> Case:
         self_check=chosen.self_check,
         next_frame=later,
         tracer=chosen.tracer,
-        variants=partial(variants, user.name_full, layer, judge.ignores, drawing.palette),
+        variants=partial(variants, user.name_full, layer, judge.ignores, drawing.plan.palette),
     )
     if plan.like_for_like:
         color_type = user.display.shading.color_type
@@ -125,7 +127,8 @@ class _Export:
     def __call__(self, tmp: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
         plan = self._plan
         meshes: dict[Any, Any] = {}
-        scene, manifest, self.certificate = export_certified(depsgraph, meshes)
+        scene, manifest = export(depsgraph, meshes)
+        self.certificate = certify_camera(depsgraph, scene.camera)
         if self._is_automatic:
             plan = replace(plan, palette=automatic(plan.scene, scene, manifest))
         palette = plan.palette
@@ -138,19 +141,20 @@ class _Export:
         manifest = noted(palette, scene, manifest)
         if self.certificate:
             self.certificate.check()
-        if plan.like_for_like and used["color_type"] == "RANDOM":
-            plan.judge.check_random(scene, manifest.owners)
         if plan.like_for_like:
-            _check_colors(plan.judge, scene, used["color_type"], tmp)
+            _check_colors(plan.judge, scene, manifest, used["color_type"], tmp)
         else:
             of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
-            of_scene = (replace(u, object=f"scene '{plan.scene.name}'") for u in of_picture)
-            manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_scene))
-        return Drawing.of(plan, scene, manifest)
+            manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_picture))
+        return Drawing(plan, scene, manifest)
 
 
-def _check_colors(judge: Judge, scene: Scene, color_type: str, tmp: Any) -> None:
+def _check_colors(
+    judge: Judge, scene: Scene, manifest: Manifest, color_type: str, tmp: Any
+) -> None:
     """Refuse what a judge would not show in the colours that the tracer has."""
+    if color_type == "RANDOM":
+        judge.check_random(scene, manifest.owners)
     if not judge.solid:
         check_slots(scene, color_type)
     if judge.check_colors:
@@ -161,7 +165,9 @@ def _names(scene: bpy.types.Scene) -> list[str]:
     return [o.name_full for o in scene.objects]
 
 
-def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float) -> Picture:
+def _picture(
+    pixels: Colors, owners: Owners | None, judge: Judge, used: dict[str, Any], snapping: float
+) -> Picture:
     smooth = used["anti_aliasing"]
     return Picture(
         pixels,
@@ -174,13 +180,14 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
             EMBREE if judge.traces_rays else RASTER,
         ),
         storage=Storage(sums=int(smooth) if smooth.isdigit() else 0),
+        owners=owners,
     )
 
 
 def _a_frame_later(drawing: Drawing) -> Scene:
     """Return the scene of the next frame."""
-    with drawing.prepared() as (tmp, _):
-        return export_at(tmp, tmp.frame_current + 1, drawing.judge)
+    with drawing.plan.prepared() as (tmp, _):
+        return export_at(tmp, tmp.frame_current + 1, drawing.plan.judge)
 
 
 def compare_open_file(

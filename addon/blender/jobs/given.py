@@ -81,14 +81,15 @@ def gather_given(context: Any, chosen: Choices, judge: Judge | None) -> Case:
 
 def _rendered(drawing: Drawing, judge: Judge, like_for_like: bool, making: Making) -> Picture:
     """Have an engine render what was exported."""
-    own = replace(drawing, judge=judge, like_for_like=like_for_like)
+    plan = replace(drawing.plan, judge=judge, like_for_like=like_for_like)
 
     def export(_: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
         if like_for_like and used["color_type"] == "RANDOM":
             judge.check_random(drawing.exported, drawing.manifest.owners)
-        return own
+        return drawing._replace(plan=plan)
 
-    _, scene, pixels, _ = own.drawn(export, identity=False)
+    rendered, pixels, _ = plan.drawn(export, identity=False)
+    scene = rendered.exported
     shown = picture_of_array(pixels, scene.camera, making)
     source = Source(
         judge.name,

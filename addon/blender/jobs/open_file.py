@@ -78,5 +78,5 @@ def export_open_file(
         if judge:
             prepare_scene(tmp, judge, stored.shading == "LIKE_FOR_LIKE")
         with everything(tmp) if whole else nullcontext():
-            exported, manifest, _ = export_for_render(tmp, judge)
+            exported, manifest = export_for_render(tmp, judge)
     return exported, manifest, stored.settings()

@@ -79,7 +79,7 @@ class CameraSees:
         export_camera(self._scene)  # first: its errors name the user's scene
         with temporary_scene(self._scene, self._layer, (HIDDEN_FACES,)) as tmp:
             with everything(tmp):
-                scene, manifest, _ = export_for_render(tmp)
+                scene, manifest = export_for_render(tmp)
             codes = self._codes(tmp) if self._own else {}
         visible = yield from steps(scene)
         ranks = np.split(RANKS[visible.seen], visible.start[1:-1])

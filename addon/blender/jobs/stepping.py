@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 import bpy
 from bpy.types import Scene
@@ -22,12 +23,19 @@ def visited(scene: Scene, frames: list[int]) -> Iterable[int]:
 
 def stepped(scene: Scene, frames: list[int]) -> Iterator[int]:
     """Yield each of some sorted frames once the scene is there; it goes back in the end."""
-    own = scene.frame_current, scene.frame_subframe
-    try:
+    with frame_restored(scene):
         for frame in visited(scene, frames):
             scene.frame_set(frame)
             if frame in frames:
                 yield frame
+
+
+@contextmanager
+def frame_restored(scene: Scene) -> Iterator[None]:
+    """Put a scene back to its frame in the end."""
+    own = scene.frame_current, scene.frame_subframe
+    try:
+        yield
     finally:
         scene.frame_set(own[0], subframe=own[1])
 

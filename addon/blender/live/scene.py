@@ -14,11 +14,10 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object, SpaceView3D
 
-from ...arrays import Colors
 from ...manifest import Effect
-from ...scene import Camera, Scene, alike
+from ...scene import Camera, Scene, ViewWindow, alike
 from ...wording import count_of
-from ..reading.export import Parts, assemble
+from ..reading.export import assemble
 from ..reading.meshes import Read, read_mesh
 from ..reading.visible import Seen, types_left_out, visible
 
@@ -36,9 +35,7 @@ class ViewScene:
         self.drawings = 0  # another where Blender may draw another picture of the same scene
         self.lines: tuple[str, ...] = ()  # what the picture lacks
         self._meshes: dict[tuple[int, bool], Read] = {}
-        self._scene: Scene | None = None
-        self._parts = Parts()
-        self._background: Colors = np.zeros(4, np.float32)
+        self._scene = Scene(Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 1, 1))
         self._look: tuple[object, ...] = ()  # settings of the view
 
     def outdated(self, scene: bpy.types.Scene, space: SpaceView3D) -> bool:
@@ -63,15 +60,13 @@ class ViewScene:
 
         shading = depsgraph.scene.display.shading  # as a render has it
         seen, shown, meshes = visible(depsgraph, shading, read, space)
-        parts, _ = assemble(seen, shown, meshes)
         background = np.zeros(4, np.float32)
         if space.shading.background_type == "VIEWPORT":
             background = np.array((*space.shading.background_color, 1.0), np.float32)
-        if not alike((parts, background), (self._parts, self._background)):
+        scene, _ = assemble(self._scene.camera, background, seen, shown, meshes)
+        if not alike(scene, self._scene):
             self.version += 1
-            self._parts = parts
-            self._background = background
-            self._scene = None
+            self._scene = scene
         self._look = _look(depsgraph.scene, space)
         lines = _lines(seen)
         # What is not modelled may be another. (A camera is: the drawing itself has one.)
@@ -81,10 +76,7 @@ class ViewScene:
 
     def scene(self, camera: Camera) -> Scene:
         """Return what has been read, as a camera sees it."""
-        if self._scene:
-            self._scene = self._scene.seen_by(camera)
-        else:
-            self._scene = self._parts.scene(camera, self._background)
+        self._scene = self._scene.seen_by(camera)
         return self._scene
 
 

@@ -16,7 +16,7 @@ import bpy
 from bpy.types import Context, Depsgraph, RenderEngine
 
 from ...errors import failure
-from ...scene import Camera
+from ...scene import Camera, alike
 from ...tracer.settings import Settings
 from . import shows
 from .camera import camera_of, coarser
@@ -33,9 +33,9 @@ SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's 
 
 
 class Wanted(NamedTuple):
-    """The picture that a view is to show; equal ones look the same."""
+    """The picture that a view is to show; those that are alike look the same."""
 
-    camera: str  # all that it has
+    camera: Camera
     version: int  # of the scene
     settings: Settings
     show: shows.Steps
@@ -45,7 +45,8 @@ class Wanted(NamedTuple):
 class Job:
     """A picture in the making; its pixels are `factor` times as wide and high as the view's."""
 
-    def __init__(self, wanted: Wanted, whole: ViewScene, camera: Camera, factor: int) -> None:
+    def __init__(self, wanted: Wanted, whole: ViewScene, factor: int) -> None:
+        camera = wanted.camera
         self.wanted = wanted
         self.factor = factor
         self.seconds = 0.0
@@ -72,7 +73,6 @@ class LiveView:
         self._scene = ViewScene()
         self._layers = Layers()
         self._wanted: Wanted | None = None
-        self.camera: Camera | None = None  # of what is wanted
         self.shown: Job | None = None  # the best one that is done
         self._job: Job | None = None  # a better one
         self._factor = COARSE  # of the next coarse picture
@@ -132,25 +132,25 @@ class LiveView:
         version = self._scene.version
         if show is shows.difference:  # a part of it is Blender's drawing
             version += self._scene.drawings
-        wanted = Wanted(str(camera.to_dict()), version, settings, show, space.as_pointer())
-        if self._wanted != wanted:
+        wanted = Wanted(camera, version, settings, show, space.as_pointer())
+        if not alike(self._wanted, wanted):
             self._wanted = wanted
-            self.camera = camera
             self.said = ""
         # A coarse picture of where the view has just been is finished: a view that never rests
         # would never show one.
         job = self._job
-        if job and job.wanted != wanted and (job.factor == 1 or job.wanted[1:] != wanted[1:]):
+        is_other = job and (job.factor == 1 or job.wanted[1:] != wanted[1:])
+        if job and is_other and not alike(job.wanted, wanted):
             self._job = None
-        self._begin(wanted, camera)
+        self._begin(wanted)
 
-    def _begin(self, wanted: Wanted, camera: Camera) -> None:
+    def _begin(self, wanted: Wanted) -> None:
         """Begin a better picture, if there is one to be made and none in the making."""
-        right = self.shown if self.shown and self.shown.wanted == wanted else None
+        right = self.shown if self.shown and alike(self.shown.wanted, wanted) else None
         if self._job or self.said or (right and right.factor == 1):
             return
         self._rows = 0
-        self._job = Job(wanted, self._scene, camera, 1 if right else self._factor)
+        self._job = Job(wanted, self._scene, 1 if right else self._factor)
 
     def _step(self, job: Job) -> None:
         """Do one step; a picture that is done with it is shown, and a better one begun."""
@@ -164,8 +164,8 @@ class LiveView:
             self.shown = job
             self._job = None
             self._is_drawn = False
-            if self._wanted and self.camera:
-                self._give_up(failure(self._begin, self._wanted, self.camera))
+            if self._wanted:
+                self._give_up(failure(self._begin, self._wanted))
 
     def _give_up(self, error: str) -> None:
         """Show nothing but what went wrong, if something did."""

@@ -158,11 +158,13 @@ def export_camera(scene: Scene) -> Camera:
     )
 
 
-def certify_camera(depsgraph: Depsgraph, camera: Camera) -> CameraCertificate:
+def certify_camera(depsgraph: Depsgraph, camera: Camera) -> CameraCertificate | None:
     """Return how far apart the camera exported of a depsgraph and Blender's own see known points.
 
-    Not of a panorama: Blender has no matrix of it.
+    None of a panorama: Blender has no matrix of it.
     """
+    if not camera.projection.is_linear:
+        return None
     points = known_points(camera)
     return certify(camera, points, film_of_blender(depsgraph, points))
 

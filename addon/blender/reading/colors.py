@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from colorsys import hsv_to_rgb
 from typing import Any
 
 import numpy as np
@@ -76,11 +77,7 @@ def random_color(obj: Object) -> tuple[float, float, float, float]:
     if obj.library:
         mixed = (mixed * 13 & 0xFFFFFFFF) ^ _murmur2(obj.library.filepath.encode() + b"\0")
     hue = _jenkins(mixed) / 0xFFFFFFFF
-    red, green, blue = (
-        (min(max(c, 0.0), 1.0) - 1.0) * _SATURATION + 1.0
-        for c in (abs(hue * 6 - 3) - 1, 2 - abs(hue * 6 - 2), 2 - abs(hue * 6 - 4))
-    )
-    return red * _VALUE, green * _VALUE, blue * _VALUE, 1.0
+    return *hsv_to_rgb(hue, _SATURATION, _VALUE), 1.0
 
 
 def _murmur2(data: bytes) -> int:

@@ -8,7 +8,7 @@ returned.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -32,20 +32,6 @@ from .visible import Seen, Shown, visible
 NO_SURFACE = (*NOT_DRAWN, "EMPTY")
 
 
-@dataclass(frozen=True)
-class Parts:
-    """The parts of a `Scene` besides its camera and background."""
-
-    meshes: tuple[Mesh, ...] = ()
-    instances: tuple[Instance, ...] = ()
-    planes: tuple[Plane, ...] = ()
-    objects: tuple[str, ...] = ()
-
-    def scene(self, camera: Camera, background: Colors) -> Scene:
-        """Return the scene that a camera sees."""
-        return Scene(camera, self.meshes, self.instances, self.planes, background, self.objects)
-
-
 def export(
     depsgraph: Depsgraph, known: dict[Any, Read | None] | None = None
 ) -> tuple[Scene, Manifest]:
@@ -67,9 +53,9 @@ def export(
         read = partial(_read_once, known, read)
     seen, shown, meshes = visible(depsgraph, scene.display.shading, read)
     unseen = set() if is_whole(scene) else _outside(camera, shown, meshes)
-    parts, owners = assemble(seen, shown, meshes, unseen)
+    exported, owners = assemble(camera, background(scene), seen, shown, meshes, unseen)
     manifest = _manifest(depsgraph, camera.name, seen, meshes)
-    return parts.scene(camera, background(scene)), replace(manifest, owners=owners)
+    return exported, replace(manifest, owners=owners)
 
 
 def _read_once(
@@ -89,12 +75,14 @@ def _read_once(
 
 
 def assemble(
+    camera: Camera,
+    background: Colors,
     seen: dict[str, Seen],
     shown: list[Shown],
     meshes: dict[int, Read],
     unseen: Collection[int] = (),
-) -> tuple[Parts, tuple[str, ...]]:
-    """Return the parts of a scene, and the owner of each instance and then of each plane.
+) -> tuple[Scene, tuple[str, ...]]:
+    """Return the scene that a camera sees, and the owner of each instance, then of each plane.
 
     What is `unseen`, by its number in `shown`, is left out. What each object shows is counted in
     `seen`.
@@ -111,7 +99,7 @@ def assemble(
             if finite and item.matrix[:3, :2].any(axis=0).all():
                 index = objects.setdefault(item.name, len(objects))
                 planes.append((_plane(index, item.matrix, item.colors[0]), item.owner))
-                entry.planes += 1
+                entry.instances += 1
             else:
                 entry.left_out += 1
         elif n in unseen:
@@ -122,13 +110,15 @@ def assemble(
             index = objects.setdefault(item.name, len(objects))
             instances.append((Instance(number, index, item.matrix, item.colors), item.owner))
     instances.sort(key=lambda i: i[0].object)
-    parts = Parts(
+    scene = Scene(
+        camera,
         tuple(meshes[key][0] for key in numbers),
         tuple(instance for instance, _ in instances),
         tuple(plane for plane, _ in planes),
+        background,
         tuple(objects),
     )
-    return parts, tuple(owner for _, owner in (*instances, *planes))
+    return scene, tuple(owner for _, owner in (*instances, *planes))
 
 
 def _count(entry: Seen, key: int, read: Read, finite: bool) -> bool:
@@ -203,15 +193,15 @@ def _manifest(
 
 
 def _entry(name: str, seen: Seen, meshes: list[Mesh], gone: str) -> ObjectEntry:
-    exported = bool(seen.instances or seen.planes)
+    exported = seen.instances > 0
     return ObjectEntry(
         name=name,
-        type="INFINITE_PLANE" if seen.planes else seen.type,
+        type="INFINITE_PLANE" if exported and seen.is_plane else seen.type,
         exported=exported,
         reason="" if exported else gone or _nothing(seen),
         triangles=sum(len(mesh.triangles) for mesh in meshes),
         vertices=sum(len(mesh.vertices) for mesh in meshes),
-        instances=seen.instances + seen.planes,
+        instances=seen.instances,
         outside=seen.outside,
         left_out=seen.left_out,
         empty_slots=seen.empty_slots,

@@ -62,18 +62,16 @@ def read_mesh(
         numbers = _slots(mesh, slots)
         colors = _corner_colors(mesh, triangles, loops) if with_colors else None
         vertices = _floats(mesh.attributes["position"].data, "vector", 3)
-        is_shown = ~_hidden(mesh) if hides else None
-    if is_shown is not None and not is_shown.all():
-        if not is_shown.any():
-            return None
-        triangles, numbers = triangles[is_shown], numbers[is_shown]
-        colors = None if colors is None else colors[is_shown]
-    vertices, is_kept = drop_non_finite(vertices, triangles)
-    left_out = len(is_kept) - int(is_kept.sum())
-    if left_out:
+        is_shown = ~_hidden(mesh) if hides else np.ones(len(triangles), bool)
+    if not is_shown.any():
+        return None
+    vertices, is_finite = drop_non_finite(vertices, triangles)
+    is_kept = is_shown & is_finite
+    if not is_kept.all():
         triangles = triangles[is_kept]
         numbers = numbers[is_kept]
         colors = None if colors is None else colors[is_kept]
+    left_out = int(is_shown.sum() - is_kept.sum())
     return Mesh(vertices, triangles, numbers, colors, name), left_out
 
 

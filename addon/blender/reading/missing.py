@@ -14,6 +14,7 @@ import bpy
 from bpy.types import ID, Object, Scene, ViewLayer
 
 from ...manifest import Effect, Unmodelled
+from ...wording import listed
 from .missing_files import Lost, exists, lost_files
 
 MOST = 5  # things that one line names
@@ -54,14 +55,11 @@ def missing(
     if not (named or bpy.data.libraries or bpy.app.autoexec_fail):
         return  # it takes time to find out what uses what
     users = bpy.data.user_map()
-    lost = [*_placeholders(users), *named]
-    if not (lost or bpy.app.autoexec_fail):
-        return
     flag = "show_render" if mode == "RENDER" else "show_viewport"
     reached = _reached(users, _first(drawn, layer, mode, shown), flag)
-    lost = [thing for thing in lost if thing.block in reached]
-    if drawn.display.shading.color_type not in _OF_MATERIALS:
-        lost = [thing for thing in lost if thing.block.id_type != "MATERIAL"]
+    unseen = "" if drawn.display.shading.color_type in _OF_MATERIALS else "MATERIAL"
+    every = (*_placeholders(users), *named)
+    lost = [t for t in every if t.block in reached and t.block.id_type != unseen]
     yield from _told(lost, users, reached, flag)
     if bpy.app.autoexec_fail:
         yield from _drivers(reached)
@@ -186,10 +184,10 @@ def _told(
     found: dict[tuple[str, str], list[str]] = defaultdict(list)
     for thing in lost:
         names = sorted(_objects(thing.block, users, reached, flag))
-        of = "" if thing.block.id_type == "OBJECT" or not names else f" of {_listed(names)}"
+        of = "" if thing.block.id_type == "OBJECT" or not names else f" of {listed(names, MOST)}"
         found[thing.kind, thing.name].append(thing.of + of)
     for (kind, name), things in found.items():
-        yield Unmodelled(name, f"missing {kind}", _listed(things), None, Effect.MISSING)
+        yield Unmodelled(name, f"missing {kind}", listed(things, MOST), None, Effect.MISSING)
 
 
 def _objects(block: ID, users: _Users, reached: set[Any], flag: str) -> set[str]:
@@ -207,11 +205,6 @@ def _objects(block: ID, users: _Users, reached: set[Any], flag: str) -> set[str]
     return found
 
 
-def _listed(names: list[str]) -> str:
-    more = len(names) - MOST
-    return ", ".join(names[:MOST]) + (f" and {more} more" if more > 0 else "")
-
-
 def _drivers(blocks: Iterable[Any]) -> Iterator[Unmodelled]:
     """Yield the drivers with Python that Blender has not run, as scripts are off."""
     for block in blocks:
@@ -219,7 +212,7 @@ def _drivers(blocks: Iterable[Any]) -> Iterator[Unmodelled]:
         drivers = animation.drivers if animation else ()
         names = [curve.data_path for curve in drivers if _was_not_run(curve)]
         if names:
-            detail = f"scripts are off: {_listed(list(dict.fromkeys(names)))}"
+            detail = f"scripts are off: {listed(list(dict.fromkeys(names)), MOST)}"
             yield Unmodelled(block.name, "driver that did not run", detail, None, Effect.MISSING)
 
 

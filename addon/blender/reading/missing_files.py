@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import bpy
-from bpy.types import ID, Library, Object
+from bpy.types import ID, Library
 
 from ..versions import bake_folder
 
@@ -42,10 +42,13 @@ def lost_files(mode: str, frame: int) -> Iterator[Lost]:
         The scene's.
     """
     yield from _of_blocks(frame)
+    flag = "show_viewport" if mode == "VIEWPORT" else "show_render"
     for obj in bpy.data.objects:
-        for of, kind, path in _of_object(obj, mode):
-            if path and not exists(obj, path):
-                yield Lost(obj, kind, path, of)
+        for modifier in (m for m in obj.modifiers if getattr(m, flag)):
+            kind = "file" if modifier.type == "MESH_CACHE" else "folder"
+            for path in _paths(modifier):
+                if path and not exists(obj, path):
+                    yield Lost(obj, kind, path, f"modifier '{modifier.name}' of '{obj.name}'")
     for tree in bpy.data.node_groups:
         for node in tree.nodes if tree.type == "GEOMETRY" else ():
             path = _imported(node)
@@ -55,33 +58,26 @@ def lost_files(mode: str, frame: int) -> Iterator[Lost]:
 
 def _of_blocks(frame: int) -> Iterator[Lost]:
     for font in bpy.data.fonts:
-        if font.filepath != "<builtin>" and _is_lost(font):
-            yield Lost(font, "file", font.filepath, f"font '{font.name}'")
+        if font.filepath != "<builtin>":
+            yield from _lost(font, "font")
     for image in bpy.data.images:
         if image.source in ("FILE", "SEQUENCE", "MOVIE", "TILED"):
-            pattern = image.filepath if image.source != "SEQUENCE" else _any_frame(image.filepath)
-            if _is_lost(image, pattern):
-                yield Lost(image, "file", image.filepath, f"image '{image.name}'")
+            yield from _lost(image, "image", image.source == "SEQUENCE")
     for cache in bpy.data.cache_files:
         shown = cache.frame if cache.override_frame else frame
-        pattern = _of_frame(cache.filepath, int(shown)) if cache.is_sequence else cache.filepath
-        if _is_lost(cache, pattern):
-            yield Lost(cache, "file", pattern, f"cache '{cache.name}'")
+        path = _of_frame(cache.filepath, int(shown)) if cache.is_sequence else cache.filepath
+        if path and not exists(cache, path):
+            yield Lost(cache, "file", path, f"cache '{cache.name}'")
     for volume in bpy.data.volumes:
-        pattern = _any_frame(volume.filepath) if volume.is_sequence else volume.filepath
-        if _is_lost(volume, pattern):
-            yield Lost(volume, "file", volume.filepath, f"volume '{volume.name}'")
+        yield from _lost(volume, "volume", volume.is_sequence)
 
 
-def _is_lost(block: Any, pattern: str | None = None) -> bool:
-    """Return whether a data-block's file is neither packed nor there."""
-    path = block.filepath if pattern is None else pattern
-    packed = getattr(block, "packed_file", None) or getattr(block, "packed_files", ())
-    return bool(path) and not packed and not exists(block, path)
-
-
-def _any_frame(path: str) -> str:
-    return _NUMBER.sub("*", path, count=1)
+def _lost(block: Any, kind: str, is_sequence: bool = False) -> Iterator[Lost]:
+    """Yield a data-block's file if it is neither packed nor there, of a sequence in any frame."""
+    path = _NUMBER.sub("*", block.filepath, count=1) if is_sequence else block.filepath
+    packed = block.packed_file or getattr(block, "packed_files", ())
+    if path and not packed and not exists(block, path):
+        yield Lost(block, "file", block.filepath, f"{kind} '{block.name}'")
 
 
 def _of_frame(path: str, frame: int) -> str:
@@ -104,34 +100,25 @@ def _absolute(path: str, library: Library) -> str:
     return bpy.path.abspath(path.replace("\\", "/"), start=start)
 
 
-def _of_object(obj: Object, mode: str) -> Iterator[tuple[str, str, str]]:
-    """Yield what of an object reads files, what kind they are, and where they should be."""
-    for modifier in obj.modifiers:
-        if modifier.show_viewport if mode == "VIEWPORT" else modifier.show_render:
-            for kind, path in _of_modifier(modifier):
-                yield f"modifier '{modifier.name}' of '{obj.name}'", kind, path
-
-
-def _of_modifier(modifier: Any) -> Iterator[tuple[str, str]]:
+def _paths(modifier: Any) -> Iterator[str]:
+    """Yield the file that a modifier reads, or the folders of its caches."""
     kind = modifier.type
-    if kind == "MESH_CACHE":
-        yield "file", modifier.filepath
-    elif kind == "OCEAN" and modifier.is_cached:
-        yield "folder", modifier.filepath
+    if kind == "MESH_CACHE" or (kind == "OCEAN" and modifier.is_cached):
+        yield modifier.filepath
     elif kind == "FLUID" and modifier.fluid_type == "DOMAIN":
         domain = modifier.domain_settings
         if domain.has_cache_baked_any:
-            yield "folder", domain.cache_directory
+            yield domain.cache_directory
     elif kind in ("CLOTH", "SOFT_BODY"):
-        yield "folder", _baked(modifier.point_cache)
+        yield _baked(modifier.point_cache)
     elif kind == "PARTICLE_SYSTEM":
-        yield "folder", _baked(modifier.particle_system.point_cache)
+        yield _baked(modifier.particle_system.point_cache)
     elif kind == "DYNAMIC_PAINT" and modifier.canvas_settings:
         for surface in modifier.canvas_settings.canvas_surfaces:
-            yield "folder", _baked(surface.point_cache)
+            yield _baked(surface.point_cache)
     elif kind == "NODES":
         for bake in modifier.bakes:
-            yield "folder", bake_folder(modifier, bake)
+            yield bake_folder(modifier, bake)
 
 
 def _baked(cache: Any) -> str:

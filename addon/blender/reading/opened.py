@@ -32,26 +32,18 @@ def open_file(path: Path) -> None:
         If it cannot be opened, with Blender's reason. What was open before then still is.
     """
     said: list[str] = []
-    with _heard() as loaded, _reports_shown():
-        try:
-            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
-        except RuntimeError as error:
-            if not loaded:
-                raise
-            said = [line.removeprefix("Error: ").strip() for line in str(error).splitlines()]
-    _reports.clear()
-    _reports[bpy.data.filepath] = tuple(line for line in said if line)
-
-
-@contextmanager
-def _reports_shown() -> Iterator[None]:
-    """Print on standard error what Blender reports by Python, once it has opened a file."""
-    printed = StringIO()
+    printed = StringIO()  # what Blender reports by Python, which is no result of ours
     try:
-        with redirect_stdout(printed):
-            yield
+        with _heard() as loaded, redirect_stdout(printed):
+            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+    except RuntimeError as error:
+        if not loaded:
+            raise
+        said = [line.removeprefix("Error: ").strip() for line in str(error).splitlines()]
     finally:
         show(*printed.getvalue().splitlines(), file=sys.stderr)
+    _reports.clear()
+    _reports[bpy.data.filepath] = tuple(line for line in said if line)
 
 
 @contextmanager
@@ -86,12 +78,9 @@ def _heard() -> Iterator[list[Any]]:
 
 def notes() -> tuple[str, ...]:
     """Return notes on how the open file was opened, a sentence each."""
-    said = [f"Blender opened the file with a report: {line}" for line in _reported()]
+    reported = _reports.get(bpy.data.filepath, ())
+    said = [f"Blender opened the file with a report: {line}" for line in reported]
     if bpy.app.autoexec_fail:
         scripts = [f"'{text.name}'" for text in bpy.data.texts if text.use_module]
         said += [f"script {name} of the file is not run: scripts are off" for name in scripts]
     return tuple(said)
-
-
-def _reported() -> tuple[str, ...]:
-    return _reports.get(bpy.data.filepath, ())

@@ -25,6 +25,7 @@ from ...pictures.palette import (
     not_told_apart,
 )
 from ...scene import GREY, Scene, SceneError
+from ...wording import listed
 from ..temporary import NOT_DRAWN
 from .colors import slot_materials
 
@@ -140,8 +141,8 @@ def _of_materials(scene: bpy.types.Scene) -> Palette:
     others = [f"'{name}'" for name in used if name not in colors]
     note = ""
     if others:
-        told = ", ".join(others[:_NAMED]) + (", ..." if len(others) > _NAMED else "")
-        note = f"materials without one base colour show that of the viewport: {told}"
+        named = listed(others, _NAMED)
+        note = f"materials without one base colour show that of the viewport: {named}"
     return Palette(By.MATERIAL, colors, note)
 
 

@@ -6,7 +6,7 @@ import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from ...arrays import by_runs
 from ...files.exr import MissingLibraryError
 from ...files.images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
 from ...scene import SceneError
+from ..values import values_restored
 from ..versions import LAYERS, set_format
 from .rendered import engine_of_result, result_image
 
@@ -27,8 +28,16 @@ _KINDS = "FILE", "GENERATED"
 # Blender brings a library that reads it.)
 _LAYER = re.compile(rb"\0([^\0]+)\.Combined\.R\0")
 _OF_CYCLES = re.compile(rb"cycles\.[^\0]+\.samples\0string\0")
-# Of an image's file, each after those that it depends on.
-_SETTINGS = "media_type", "file_format", "color_mode", "color_depth", "exr_codec", "views_format"
+# Of an image's file, each after those that it depends on: a format brings its own space.
+_SETTINGS = (
+    "media_type",
+    "file_format",
+    "color_mode",
+    "color_depth",
+    "exr_codec",
+    "views_format",
+    "linear_colorspace_settings.name",
+)
 
 
 @dataclass(frozen=True)
@@ -100,7 +109,10 @@ def render_result(scene: Scene, layer: str) -> Iterator[Held]:
     """
     image = result_image()
     settings: Any = scene.render.image_settings
-    with tempfile.TemporaryDirectory() as folder, _kept(settings):
+    kept = [(settings, name) for name in _SETTINGS]
+    if settings.color_management != "OVERRIDE":
+        kept.pop()  # its own space, which is not used then
+    with tempfile.TemporaryDirectory() as folder, values_restored(kept):
         path = Path(folder) / "Render Result.exr"
         # Its own colour management stays: switching that off and on has Blender overwrite it. The
         # format makes its linear space the scene's.
@@ -124,8 +136,8 @@ def render_result(scene: Scene, layer: str) -> Iterator[Held]:
             engine = "cycles" if _OF_CYCLES.search(made) else "other"
             rendered_by = engine if engine == "cycles" else engine_of_result(scene)
             remarks = tuple(_remarks(scene, layer, is_rendered))
-            held = Held(Path(image.name), width, height, loaded, engine, remarks)
-            yield replace(held, rendered_by=rendered_by if is_rendered else "")
+            known = rendered_by if is_rendered else ""
+            yield Held(Path(image.name), width, height, loaded, engine, remarks, known)
         finally:
             bpy.data.images.remove(loaded)
 
@@ -151,18 +163,3 @@ def _remarks(scene: Scene, layer: str, is_rendered: bool) -> Iterator[str]:
         yield f"it shows the view layer '{rendered[0]}', and '{layer}' was traced"
     if scene.render.use_stamp:
         yield "metadata is burned into it"
-
-
-@contextmanager
-def _kept(settings: Any) -> Iterator[None]:
-    """Put a scene's settings of files back."""
-    before = {name: getattr(settings, name) for name in _SETTINGS if hasattr(settings, name)}
-    own = settings.linear_colorspace_settings  # used if these settings are not the scene's
-    space = settings.color_management == "OVERRIDE" and own.name
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            setattr(settings, name, value)
-        if space:  # last: a format brings its own
-            own.name = space

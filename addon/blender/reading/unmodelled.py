@@ -47,12 +47,13 @@ def world_bounds(obj: Object, matrix: Matrix) -> Floats:
 
 def _reaches(obj: Object) -> Iterator[float]:
     """Yield how far beyond its own box an object is drawn, in metres."""
-    for system in getattr(obj, "particle_systems", ()):
+    for system in obj.particle_systems:
         if system.settings.type == "HAIR":
             yield system.settings.hair_length
     if obj.type in ("GREASEPENCIL", "GPENCIL"):
-        for frame in (frame for layer in obj.data.layers for frame in layer.frames):
-            yield from radii(obj, frame)
+        for layer in obj.data.layers:
+            for frame in layer.frames:
+                yield from radii(obj, frame)
 
 
 def unfilled(obj: Object, holder: Object) -> bool:

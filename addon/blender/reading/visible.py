@@ -42,7 +42,6 @@ class Seen:
     outside: int = 0  # instances that no ray can meet: not exported
     triangles: int = 0  # over all instances
     left_out: int = 0
-    planes: int = 0
     empty_slots: int = 0
     features: dict[str, Unmodelled] = field(default_factory=dict)
 

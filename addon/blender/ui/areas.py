@@ -9,8 +9,8 @@ from typing import Any
 import bpy
 from bpy.types import Area, Context, Window
 
-# Types of areas that show progress, and of regions in them.
-_SAID_IN = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("IMAGE_EDITOR", "HEADER")}
+# Types of areas that show progress, and of the region in each.
+_SAID_IN = {"PROPERTIES": "WINDOW", "VIEW_3D": "UI", "IMAGE_EDITOR": "HEADER"}
 
 
 def areas(*kinds: str) -> Iterator[tuple[Any, Any]]:
@@ -37,7 +37,7 @@ def redraw(context: Context) -> None:
 
 def redraw_said() -> None:
     """Redraw what shows the progress, and nothing that costs more."""
-    for _, area in areas(*dict(_SAID_IN)):
+    for _, area in areas(*_SAID_IN):
         for region in area.regions:
-            if (area.type, region.type) in _SAID_IN:
+            if region.type == _SAID_IN[area.type]:
                 region.tag_redraw()

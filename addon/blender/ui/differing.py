@@ -42,13 +42,13 @@ class REFERENCE_TRACER_OT_frame_region(bpy.types.Operator):
     @classmethod
     def description(cls, context: Context, properties: OperatorProperties) -> str:
         """Return what the region is, too: the button may have no room for it."""
-        found = _regions(context)[properties.number :][:1]
+        found = results.of_comparison(context).regions[properties.number :][:1]
         return "\n".join((*(texts_of(r)[0] for r in found), tip_(cls.bl_description)))
 
     def execute(self, context: Context) -> Answer:
         from ...scene import SceneError
 
-        found = _regions(context)
+        found = results.of_comparison(context).regions
         if self.number >= len(found):
             raise SceneError(f"The comparison has {len(found)} regions, numbered from 0.")
         for window, area in () if bpy.app.background else areas("IMAGE_EDITOR"):
@@ -124,11 +124,6 @@ def _enlarge(window: Window, area: Any, region: Region) -> None:
         bpy.ops.image.view_zoom_border(xmin=x0, xmax=x1, ymin=y0, ymax=y1)
 
 
-def _regions(context: Context) -> tuple[Region, ...]:
-    found = results.of_comparison(context)
-    return found.regions if found else ()
-
-
 def draw_causes(layout: UILayout, context: Context) -> None:
     """Draw each cause in its colour with its pixels, and a button for each of the first regions."""
     from ...causes.explain import BY_NUMBER
@@ -140,7 +135,7 @@ def draw_causes(layout: UILayout, context: Context) -> None:
         said = cause.count_in_words(count, iface_)
         wrapped(layout, context, said, swatch=swatch(cause))
     column = layout.column(align=True)
-    for number, region in enumerate(_regions(context)[:LISTED]):
+    for number, region in enumerate(results.of_comparison(context).regions[:LISTED]):
         cause = BY_NUMBER[region.cause]
         row = column.row(align=True)
         texts = texts_of(region)
@@ -155,7 +150,7 @@ def draw_causes(layout: UILayout, context: Context) -> None:
         if region.objects:
             select = REFERENCE_TRACER_OT_select_object.bl_idname
             row.operator(select, text="", icon="VIEW3D").name = region.objects[0]
-    if more := len(_regions(context)[LISTED:]):
+    if more := len(results.of_comparison(context).regions[LISTED:]):
         column.label(text=iface_("and {} more regions").format(more))
 
 

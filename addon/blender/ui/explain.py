@@ -101,7 +101,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
 class _OfLatest:
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return results.latest(Kind.PIXEL, context.scene) is not None
+        return results.content(Kind.PIXEL, context.scene) is not None
 
 
 @named

@@ -7,13 +7,14 @@ camera. Where a fault changes a picture, a button shows that picture put right.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import IntProperty
 from bpy.types import Context, UILayout
 
+from ...wording import capital
 from . import blocks, results
 from .differing import OBJECT_MODE, REFERENCE_TRACER_OT_select_object, select_alone
 from .layout import wrapped
@@ -21,12 +22,8 @@ from .long_work import Answer, named
 from .shown import open_as_render, show_where_shown
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from ...arrays import Colors
     from ...comparison.comparison import Comparison
     from ...diagnosis.diagnosis import Told
-    from ...scene import Camera
 
 
 class _OfFinding:
@@ -85,8 +82,7 @@ class REFERENCE_TRACER_OT_copy_camera(_OfFinding, bpy.types.Operator):
         name = f"{context.scene.camera.name} as in the picture"
         obj = copy_camera(context.scene, camera, name)
         select_alone(context, obj)
-        kept: Any = results.of_comparison(context)
-        kept.copies[obj.session_uid] = self.number
+        results.of_comparison(context).copies[obj.session_uid] = self.number
         said = rpt_("'{}' sees what the picture shows; your own camera is still the active one")
         self.report({"INFO"}, said.format(obj.name))
         return {"FINISHED"}
@@ -123,24 +119,20 @@ class REFERENCE_TRACER_OT_show_put_right(_OfFinding, bpy.types.Operator):
         from ...scene import SceneError
 
         said = self.told(context).sentence
-        color = _put_right(context).get(self.number)
+        kept = results.of_comparison(context)
+        color = kept.put_right.get(self.number)
         if color is None:
             raise SceneError(f"No picture shows it put right: {said}.")
         show = show_where_shown if bpy.app.background else open_as_render
         show(context, blocks.show(blocks.PUT_RIGHT, color))
-        kept: Any = results.of_comparison(context)
         kept.shown[:] = [self.number]
         return {"FINISHED"}
 
 
-def _put_right(context: Context) -> Mapping[int, Colors]:
-    """Return the pictures that are put right, by the number of their fault."""
-    found = results.of_comparison(context)
-    return found.put_right if found else {}
-
-
 def draw_findings(layout: UILayout, context: Context, comparison: Comparison) -> None:
     """Draw what accounts for the unexplained pixels: a line each, with its button."""
+    from ...scene import alike
+
     diagnosis = comparison.diagnosis
     if diagnosis is None:
         return
@@ -151,14 +143,14 @@ def draw_findings(layout: UILayout, context: Context, comparison: Comparison) ->
     before = comparison.scene.camera
     for number, told in enumerate(diagnosis.told):
         said = f"or, as likely, {told.sentence}" if told.alternative else told.sentence
-        wrapped(box, context, said[0].upper() + said[1:], "INFO")
-        if _differ(before, told.frame.scene.camera):
+        wrapped(box, context, capital(said), "INFO")
+        if not alike(before, told.frame.scene.camera):
             box.operator(REFERENCE_TRACER_OT_copy_camera.bl_idname).number = number
             if number == _copied_for(context):
                 box.operator(REFERENCE_TRACER_OT_activate_copy.bl_idname)
         elif told.guess.object in here:
             box.operator(REFERENCE_TRACER_OT_select_object.bl_idname).name = told.guess.object
-        if number in _put_right(context):
+        if number in results.of_comparison(context).put_right:
             box.operator(REFERENCE_TRACER_OT_show_put_right.bl_idname).number = number
         if not told.alternative:
             before = told.frame.scene.camera
@@ -170,12 +162,6 @@ def _copied_for(context: Context) -> int | None:
     None if it is the scene's camera already.
     """
     active = context.view_layer.objects.active  # `context.object` is None in the Render properties
-    found = results.of_comparison(context)
-    if not (found and active) or active == context.scene.camera:
+    if not active or active == context.scene.camera:
         return None
-    return found.copies.get(active.session_uid)
-
-
-def _differ(first: Camera, second: Camera) -> bool:
-    """Return whether two cameras see differently."""
-    return first is not second and first.to_dict() != second.to_dict()
+    return results.of_comparison(context).copies.get(active.session_uid)

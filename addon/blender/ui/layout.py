@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.types import Context, UILayout
 
 from ...methods import Method
+from ...wording import capital
 
 _NAMES = 0.56  # the names' share of a list of facts
 _NAME, _VALUE = 0.37, 0.58  # those of a setting's name and of what stands beside it
@@ -46,7 +47,7 @@ def both(part: type, suffix: str = "", **more: Any) -> list[type]:
 def short_name(row: Any) -> str:
     """Return a row's method and precision, in short: 'Textbook 32'."""
     name = Method(row.method).record.short
-    return f"{name[0].upper()}{name[1:]} {row.precision.removeprefix('float')}"
+    return f"{capital(name)} {row.precision.removeprefix('float')}"
 
 
 def draw_facts(layout: UILayout, context: Context, facts: Iterable[tuple[str, str]]) -> None:

@@ -127,13 +127,13 @@ class LongWork(Mixin):
 
     def execute(self, context: Context) -> Answer:
         """Run through, as a script wants it."""
-        return self._end(context, result_of(self._begun(context)))
+        return result_of(self._run(context))
 
     def invoke(self, context: Context, event: Event) -> Answer:
         """Begin, and go on while the interface stays alive."""
         if bpy.app.background:
             return self.execute(context)
-        LongWork._work = self._begun(context)
+        LongWork._work = self._run(context)
         manager = context.window_manager
         LongWork._timer = manager.event_timer_add(PAUSE, window=context.window)
         manager.progress_begin(0, 100)
@@ -146,19 +146,28 @@ class LongWork(Mixin):
         self._say(context, self.announced and announced(context.view_layer, self.announced))
         return {"RUNNING_MODAL"}
 
-    def _begun(self, context: Context) -> Work[Any]:
-        """Begin once what is announced has been drawn, which is before the timer's first event."""
+    def _run(self, context: Context) -> Work[Answer]:
+        """Do the work, show what it finds, and report its result.
+
+        It begins once what is announced has been drawn: before the timer's first event.
+        """
         self.scene = context.scene.session_uid  # its name, and the window's scene, may change
         with closing(self.begin(context)) as work:
             while True:
                 try:
                     event = next(work)
                 except StopIteration as stop:
-                    return stop.value
+                    result = stop.value
+                    break
                 if isinstance(event, Found):
                     yield from self.show(context, event.result)
                 else:
                     yield event
+        level, text = self.finish(context, result)
+        redraw(context)
+        kind: Any = {level}
+        self.report(kind, text)
+        return {"FINISHED"}
 
     def modal(self, context: Context, event: Event) -> Answer:
         """Work for one step, or stop at Esc."""
@@ -179,10 +188,8 @@ class LongWork(Mixin):
                 meter.read(next(self._work))
         except StopIteration as stop:
             self.stop(context)
-            try:
-                return self._end(context, stop.value)
-            except Exception as error:
-                return failed(self, error)
+            answer: Answer = stop.value
+            return answer
         except Exception as error:
             self.stop(context)
             return failed(self, error)
@@ -223,14 +230,6 @@ class LongWork(Mixin):
                 workspace.status_text_set(None)
         LongWork._told.clear()
         redraw_said()
-
-    def _end(self, context: Context, result: Any) -> Answer:
-        """Show the result, and report it."""
-        level, text = self.finish(context, result)
-        redraw(context)
-        kind: Any = {level}
-        self.report(kind, text)
-        return {"FINISHED"}
 
 
 def failed(operator: Any, error: Exception) -> Answer:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
-from xml.sax.saxutils import quoteattr
+from xml.etree.ElementTree import Element, ElementTree, SubElement
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -50,8 +50,9 @@ class REFERENCE_TRACER_OT_preset_add(AddPresetBase, bpy.types.Operator):
         names = [n for n in ReferenceTracerScene.__annotations__ if n != "image"]  # of one file
         values = {name: getattr(stored, name) for name in names}
         texts = {n: str(v).upper() if isinstance(v, bool) else str(v) for n, v in values.items()}
-        said = (f"{name}={quoteattr(text)}" for name, text in texts.items())
-        Path(filepath).write_text(f"<bpy><{_GROUP} {' '.join(said)} /></bpy>\n", encoding="utf-8")
+        root = Element("bpy")
+        SubElement(root, _GROUP, texts)
+        ElementTree(root).write(filepath)
 
 
 def _with(**operators: str | None) -> Callable[[Menu, Context], None]:
@@ -78,7 +79,7 @@ def _with_menu(kind: type[Menu]) -> Callable[[Menu, Context], None]:
 def _draw_in_header(header: Header, context: Any) -> None:
     if chosen(context.space_data):
         draw_in_header(header.layout, context)
-    draw_switch(header.layout.row(align=True), context.space_data)
+        draw_switch(header.layout.row(align=True), context.space_data)
 
 
 MENUS = {

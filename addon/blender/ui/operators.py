@@ -11,7 +11,7 @@ from bpy.props import BoolProperty
 from bpy.types import Context
 
 from ...tracer.progress import Found, Work
-from ...wording import say
+from ...wording import capital, say
 from ..drawing.judges import OF_ONE_FRAME, STILLS
 from . import blocks, results
 from .areas import redraw
@@ -85,7 +85,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         say(*results.keep(Kind.ENGINES, tuple(result), lines, self.scene).lines)
         verdict = engines.worst(result)
         text = ", ".join(f"{row.engine}: {row.verdict}" for row in result)
-        return "INFO" if verdict == "agree" else "WARNING", text[0].upper() + text[1:]
+        return "INFO" if verdict == "agree" else "WARNING", capital(text)
 
 
 @named
@@ -126,8 +126,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         yield None
 
     def finish(self, context: Context, result: Any) -> tuple[str, str]:
-        found = results.latest(Kind.FRAMES, context.scene)
-        say(*(found.lines if found else ()))
+        say(*results.latest(Kind.FRAMES, context.scene).lines)
         return "INFO" if self.left.endswith(": agree") else "WARNING", self.left.capitalize()
 
 
@@ -150,7 +149,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     @classmethod
     def blocked(cls, context: Context) -> str:
         """Return what is in the way: it needs a comparison, and runs alone."""
-        found = results.of_comparison(context)
+        found = results.comparison(context)
         return super().blocked(context) if found else rpt_("Trace and Compare comes first")
 
     def begin(self, context: Context) -> Work[Any]:

@@ -141,7 +141,7 @@ class _Export(Part):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return results.of_comparison(context) is not None
+        return results.comparison(context) is not None
 
     def draw(self, context: Context) -> None:
         """Draw the manifest: what was exported, skipped, not modelled."""

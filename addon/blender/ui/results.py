@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache
 from pathlib import Path
@@ -42,6 +42,7 @@ class Result:
     copies: dict[int, int] = field(default_factory=dict)
 
 
+_NOTHING = Result(None, ())
 _latest: dict[Kind, Result] = {}
 
 
@@ -72,13 +73,13 @@ def keep_comparison(comparison: Comparison, scene: int) -> Work[Result]:
             right[number] = color
             yield None
         blocks.remove(blocks.PUT_RIGHT)
-        kept = keep(Kind.COMPARISON, comparison, describe(comparison), scene)
-        _latest[Kind.COMPARISON] = replace(kept, regions=regions, put_right=right)
-        return _latest[Kind.COMPARISON]
+        lines = describe(comparison)
+        kind = Kind.COMPARISON
+        return keep(kind, comparison, lines, scene, regions=regions, put_right=right)
     finally:
         found = _latest.get(Kind.COMPARISON)
         if found is None or found.content.causes is not comparison.causes:
-            _forget_comparison()  # some pictures are of another one
+            drop(Kind.COMPARISON)  # some pictures are of another one
 
 
 @cache
@@ -88,26 +89,25 @@ def session_folder() -> Path:
 
 
 def keep(
-    kind: Kind, content: Any, lines: Iterable[str], scene: int | None = None, page: str = ""
+    kind: Kind, content: Any, lines: Iterable[str], scene: int | None = None, **more: Any
 ) -> Result:
     """Remember a result of a kind, of the scene of a `session_uid`, for :func:`latest`."""
-    _latest[kind] = Result(content, tuple(lines), scene, page)
+    _latest[kind] = Result(content, tuple(lines), scene, **more)
     return _latest[kind]
 
 
-def latest(kind: Kind, scene: Scene) -> Result | None:
-    """Return the latest result of a kind, if it is of this scene."""
-    found = _latest.get(kind)
-    return found if found and found.scene in (None, scene.session_uid) else None
+def latest(kind: Kind, scene: Scene) -> Result:
+    """Return the latest result of a kind, if it is of this scene; else one without content."""
+    found = _latest.get(kind, _NOTHING)
+    return found if found.scene in (None, scene.session_uid) else _NOTHING
 
 
 def content(kind: Kind, scene: Scene) -> Any:
     """Return what :func:`latest` has of a kind; None if there is none."""
-    found = latest(kind, scene)
-    return found and found.content
+    return latest(kind, scene).content
 
 
-def of_comparison(context: Context) -> Result | None:
+def of_comparison(context: Context) -> Result:
     """Return the latest result of a comparison of the context's scene."""
     return latest(Kind.COMPARISON, context.scene)
 
@@ -119,13 +119,8 @@ def comparison(context: Context) -> Any:
 
 def drop(kind: Kind) -> None:
     """Drop the latest result of a kind, of whichever scene, with its pictures."""
-    if _latest.pop(kind, None) and kind is Kind.COMPARISON:
-        _forget_comparison()
-
-
-def _forget_comparison() -> None:
-    _latest.pop(Kind.COMPARISON, None)
-    for name in blocks.PICTURES:
+    _latest.pop(kind, None)
+    for name in blocks.PICTURES if kind is Kind.COMPARISON else ():
         blocks.remove(name)
 
 
@@ -147,6 +142,6 @@ def shown_put_right(scene: Scene) -> Told:
     from ...scene import SceneError
 
     found = latest(Kind.COMPARISON, scene)
-    if found and found.shown:
+    if found.shown:
         return found.content.diagnosis.told[found.shown[0]]
     raise SceneError("No picture of this scene's latest comparison is shown put right: press Show.")

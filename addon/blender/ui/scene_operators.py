@@ -144,15 +144,14 @@ class REFERENCE_TRACER_OT_export_camera(ExportHelper, bpy.types.Operator):
         return why_blocked(context, needs_camera=True)
 
     def check(self, context: Context) -> bool:  # type: ignore[override]  # the stub returns nothing
-        """Give the file the ending of the convention; returns whether the name is another now."""
+        """Give the file its convention's ending, a folder none; returns whether it is another."""
         from ...camera_files.files import WRITTEN
 
-        ending = Path(WRITTEN[self.convention].file).suffix
+        of_files = {n: Path(c.file).suffix for n, c in WRITTEN.items() if "folder" not in c.file}
         before = self.filepath
         path = Path(before)
-        endings = {Path(c.file).suffix for c in WRITTEN.values()}
-        if not path.suffix or path.suffix in endings:
-            self.filepath = str(path.with_suffix(ending))
+        if path.suffix in ("", *of_files.values()):
+            self.filepath = str(path.with_suffix(of_files.get(self.convention, "")))
         return self.filepath != before
 
     def execute(self, context: Context) -> Answer:

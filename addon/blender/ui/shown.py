@@ -14,6 +14,7 @@ from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty
 from bpy.types import Context, Image, OperatorProperties, SpaceImageEditor, UILayout
 
+from ..reading.rendered import result_image
 from . import blocks
 from .areas import areas, redraw_said, within
 from .long_work import Answer, named
@@ -72,12 +73,12 @@ class REFERENCE_TRACER_OT_show_image(bpy.types.Operator):
 def chosen(space: SpaceImageEditor) -> str | None:
     """Return which image of the comparison a space shows, as the switch names it, or None."""
     image = space.image if space.type == "IMAGE_EDITOR" else None
-    if image is None or image.get(blocks.MARK) not in IMAGES.values():
-        return None
-    if image.get(blocks.MARK) == blocks.TRACED:
-        manager: Any = bpy.context.window_manager
-        return "BOTH" if manager.reference_tracer.both else "TRACED"
-    return next(key for key, name in IMAGES.items() if name == image[blocks.MARK])
+    mark = image.get(blocks.MARK) if image else None
+    keys = [key for key, name in IMAGES.items() if name == mark]
+    manager: Any = bpy.context.window_manager
+    if manager.reference_tracer.both:
+        keys.reverse()
+    return next(iter(keys), None)
 
 
 def open_as_render(context: Context, image: Image) -> None:
@@ -98,7 +99,7 @@ def _open(window: int, name: str) -> None:
     found = [w for w in context.window_manager.windows if w.as_pointer() == window]
     if not (image and found):  # another file was opened since
         return
-    had = {i.name for i in bpy.data.images}
+    had_result = result_image()
     # In an area, Blender's operator would put away a render that is shown already.
     way = context.preferences.view.render_display_type
     if way == "WINDOW" or (way != "NONE" and _of_render() is None):
@@ -109,9 +110,8 @@ def _open(window: int, name: str) -> None:
     if space := _of_render():
         space.image = image
         _fit(space)
-    for extra in bpy.data.images[:]:  # Blender makes it to be shown, where there is none
-        if extra.type == "RENDER_RESULT" and extra.name not in had:
-            bpy.data.images.remove(extra)
+    if not had_result and (extra := result_image()):  # Blender makes it to be shown
+        bpy.data.images.remove(extra)
 
 
 def _fit(space: SpaceImageEditor) -> None:
@@ -145,7 +145,7 @@ def _spaces() -> list[SpaceImageEditor]:
 def draw_switch(layout: UILayout, space: SpaceImageEditor) -> None:
     """Draw the switch of a space that shows an image of a comparison."""
     now = chosen(space)
-    there = (choice for choice in _CHOICES if now and blocks.ours(IMAGES[choice[0]]))
+    there = (choice for choice in _CHOICES if blocks.ours(IMAGES[choice[0]]))
     for key, label, _ in there:
         button = layout.operator(
             REFERENCE_TRACER_OT_show_image.bl_idname, text=label, depress=key == now

@@ -106,12 +106,10 @@ def _draw_marks(context: Context, at: Place, scale: float) -> None:
     from ...files.images import curve
 
     found = results.of_comparison(context)
-    if found is None:
-        return
-    height, width = found.content.causes.cause.shape
-    across = (at.right - at.left) / width
-    up = (at.top - at.bottom) / height
     for region in found.regions:
+        height, width = found.content.causes.cause.shape
+        across = (at.right - at.left) / width
+        up = (at.top - at.bottom) / height
         left = at.left + across * region.left - _AROUND * scale
         right = at.left + across * (region.left + region.width) + _AROUND * scale
         bottom = at.bottom + up * region.bottom - _AROUND * scale

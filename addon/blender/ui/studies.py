@@ -111,7 +111,7 @@ def keep_trade(trade: Trade, scene: int) -> results.Result:
     from ...report import trade as trade_report
 
     page = _page("trade", trade_report.page(trade))
-    return results.keep(results.Kind.TRADE, trade, [trade.advice], scene, page)
+    return results.keep(results.Kind.TRADE, trade, [trade.advice], scene, page=page)
 
 
 def keep_extremes(rows: Sequence[ExtremesRow]) -> results.Result:

@@ -48,7 +48,7 @@ class _Inspector(Part):
             explain.REFERENCE_TRACER_OT_save_pixel.bl_idname, text="Save", icon="FILE_TICK"
         )
         found = results.latest(Kind.PIXEL, context.scene)
-        if found:
+        if found.content:
             _draw(layout, context, found.content, found.lines[0])
 
 
@@ -163,9 +163,9 @@ class _Study(Part):
         layout = self.layout
         layout.operator(self.measure.bl_idname, text="Measure", icon=self.icon)
         found = results.latest(self.measure.kind, context.scene)
-        line = found.lines[0] if found else self.what
-        wrapped(layout, context, line, "INFO" if found else "NONE")
-        if found:
+        line = found.lines[0] if found.lines else self.what
+        wrapped(layout, context, line, "INFO" if found.lines else "NONE")
+        if found.page:
             layout.operator("wm.url_open", text="Open Plot").url = found.page
 
 

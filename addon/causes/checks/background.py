@@ -59,11 +59,10 @@ class Background(NamedTuple):
 
     def to_dict(self) -> dict[str, object]:
         """Return it as JSON can hold it."""
-        judged = None if self.transparent else self.unjudged()
-        counts = {"pixels": self.pixels, "not_judged": judged}
         return {
             "text": self.line(),
-            **counts,
+            "pixels": self.pixels,
+            "not_judged": None if self.transparent else self.unjudged(),
             "picture": list(self.picture),
             "scene": list(self.scene),
         }

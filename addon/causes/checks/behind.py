@@ -11,36 +11,32 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...arrays import Bools
 from ...rendering import steps
-from ...scene import Scene
 from ...tracer.frame import Frame
-from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
-from ..case import Behind, Case
-from ..cause import UNEXPLAINED, Causes
-
-FindCauses = Callable[[Case, Frame], Work[Causes]]
-
-
-def seen_through(scene: Scene, frame: Frame, behind: Behind) -> Bools:
-    """Return which pixels (h, w) show an object that the second picture leaves out."""
-    left_out = [n for n, name in enumerate(scene.objects) if name in behind.left_out]
-    return np.isin(np.append(scene.instance_objects[:-1], NOTHING)[frame.instance_index], left_out)
+from ..case import Case
+from ..cause import NOT_TRACED, UNEXPLAINED, Causes
+from .probe import OpenPixels
 
 
-def wrong_behind(case: Case, frame: Frame, find: FindCauses) -> Work[tuple[Bools, Bools]]:
-    """Return the pixels (h, w) that were judged behind glass, and those that are wrong there.
+def check(pixels: OpenPixels, find: Callable[[Case, Frame], Work[Causes]]) -> Work[None]:
+    """Find pixels, of any cause, that are wrong behind what the second picture leaves out.
 
     `find` finds the causes of a case and what was traced of it.
     """
-    none = np.zeros(frame.shape, bool)
-    behind = case.behind
-    judged = none if behind is None else seen_through(case.scene, frame, behind)
-    if behind is None or not judged.any():
-        return none, none
-    own = Frame.empty(behind.case.scene)
-    yield from steps(own.scene, behind.case.settings, own, case.tracer)
-    causes: Causes = yield from find(behind.case, own)
-    judged = judged & ~causes.unjudged
-    return judged, judged & (causes.cause == UNEXPLAINED)
+    behind, frame, out = pixels.case.behind, pixels.frame, pixels.out
+    if behind is None:
+        return
+    objects = enumerate(frame.scene.objects)
+    left_out = [number for number, name in objects if name in behind.left_out]
+    judged = np.isin(frame.object_index, left_out)
+    if not judged.any():
+        return
+    traced = Frame.empty(behind.case.scene)
+    yield from steps(traced.scene, behind.case.settings, traced, pixels.case.tracer)
+    causes = yield from find(behind.case, traced)
+    judged &= ~causes.unjudged
+    if judged.any():
+        out.behind = judged
+    wrong = judged & (causes.cause == UNEXPLAINED) & (out.cause != NOT_TRACED)
+    out.cause[wrong], out.figure[wrong], out.allowed[wrong] = UNEXPLAINED, np.nan, np.nan

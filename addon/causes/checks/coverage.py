@@ -20,6 +20,7 @@ from ...tracer.hits import NOTHING, Hits
 from ...tracer.nearest import test_pairs, test_planes
 from ...tracer.progress import Work
 from ...tracer.world import Pairs
+from .plans import SOUND
 from .probe import Probe
 
 # An aimed ray goes this share of the way to the triangle's middle, so that it does not pass the
@@ -42,21 +43,13 @@ class Coverage(NamedTuple):
     behind: Floats  # (k,) depth of the sure surface where each of `hits` is
 
 
-class _Aimed(NamedTuple):
-    """Hits of k rays aimed at triangles, at an `offset` (2, k) from the pixels' centres."""
-
-    pixel: Index
-    distance: Floats
-    offset: Floats
-    hits: Hits
-
-
 def coverage(probe: Probe, band: Floats) -> Work[Coverage]:
     """Find the triangles that may cover samples within `band` (n,) pixels of the centres."""
     sure = Hits.none(len(band))
     centres = probe.rays()
     test_planes(probe.scene, centres, sure)
-    found = [_Aimed(np.zeros(0, int), np.zeros(0), np.zeros((2, 0)), Hits.none(0))]
+    none = np.zeros(0, int), np.zeros(0), np.zeros((2, 0)), Hits.none(0)
+    found: list[tuple[Index, Floats, Floats, Hits]] = [none]
     for some in probe.chunks:
         corners = _around_centre(probe, some)
         nearest, rim = nearest_to_origin(*corners)
@@ -64,20 +57,15 @@ def coverage(probe: Probe, band: Floats) -> Work[Coverage]:
         with np.errstate(invalid="ignore"):
             certain = (rim > own) | np.isnan(rim) | _thin(corners, own)
             near = np.flatnonzero(np.abs(nearest).max(axis=0) <= own)
-        test_pairs(probe.scene, probe.settings, centres, some.take(np.flatnonzero(certain)), sure)
+        test_pairs(probe.scene, SOUND, centres, some.take(np.flatnonzero(certain)), sure)
         yield None
         middle = corners[..., near].mean(axis=0)
         found.append(_aim(probe, some.take(near), nearest[:, near], middle, own[near]))
         yield None
-    pixel = np.concatenate([aimed.pixel for aimed in found])
-    offset = np.concatenate([aimed.offset for aimed in found], axis=1)
-    return Coverage(
-        pixel,
-        np.concatenate([aimed.distance for aimed in found]),
-        Hits.joined([aimed.hits for aimed in found]),
-        sure,
-        _depth_of(sure, probe, pixel, offset),
-    )
+    pixels, distances, offsets, hits = zip(*found, strict=True)
+    pixel, offset = np.concatenate(pixels), np.concatenate(offsets, axis=1)
+    depth = _depth_of(sure, probe, pixel, offset)
+    return Coverage(pixel, np.concatenate(distances), Hits.joined(hits), sure, depth)
 
 
 def _around_centre(probe: Probe, some: Pairs) -> Floats:
@@ -99,17 +87,23 @@ def _thin(corners: Floats, band: Floats) -> Bools:
     return area < LEAST_HEIGHT * band * longest
 
 
-def _aim(probe: Probe, some: Pairs, nearest: Floats, middle: Floats, band: Floats) -> _Aimed:
-    """Trace a ray to the nearest point (2, p) of each of p triangles."""
+def _aim(
+    probe: Probe, some: Pairs, nearest: Floats, middle: Floats, band: Floats
+) -> tuple[Index, Floats, Floats, Hits]:
+    """Trace a ray to the nearest point (2, p) of each of p triangles.
+
+    Return, of the k that are hit, the pixel, how far from its centre, the ray's offset (2, k), and
+    the hits.
+    """
     inward = middle - nearest
     share = np.minimum(INWARD, band / 64 / np.maximum(np.hypot(*inward), 1e-300))
     x, y = offset = nearest + share * inward
     hits = Hits.none(len(some.pixel))
     own = replace(some, pixel=np.arange(len(hits)))  # a ray for each triangle
-    test_pairs(probe.scene, probe.settings, probe.rays(x, y, some.pixel), own, hits)
+    test_pairs(probe.scene, SOUND, probe.rays(x, y, some.pixel), own, hits)
     there = np.flatnonzero(hits.instance != NOTHING)
     distance = np.abs(nearest[:, there]).max(axis=0)
-    return _Aimed(some.pixel[there], distance, offset[:, there], hits.take(there))
+    return some.pixel[there], distance, offset[:, there], hits.take(there)
 
 
 def _depth_of(sure: Hits, probe: Probe, pixel: Index, offset: Floats) -> Floats:

@@ -17,7 +17,7 @@ from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
-from ...tracer.vector import transform_points
+from ...tracer.world import world_corners
 from ..cause import Cause
 from .coverage import coverage
 from .parts import Part, near_surfaces
@@ -210,21 +210,17 @@ def _closed(scene: Scene, beside: list[Hits], asks: Bools) -> Floats:
     gets corners of its own. Only these pixels are tested.
     """
     instance = np.stack([h.instance for h in beside])
-    triangle = np.stack([h.triangle for h in beside])
-    out, camera = np.full(len(asks), np.inf), scene.camera
     on_one = (instance == instance[0]).all(axis=0) & (instance[0] < len(scene.instances))
     asked = np.flatnonzero(asks & on_one & (instance[0] != NOTHING))
-    for number in np.unique(instance[0, asked]):
-        pixels, of = asked[instance[0, asked] == number], scene.instances[number]
-        mesh = scene.meshes[of.mesh]
-        names = triangle[:, pixels]
-        corners = mesh.vertices[mesh.triangles[names]]  # (samples, pixels, 3, 3)
-        same = (corners[0][:, :, None] == corners[:, :, None]).all(axis=-1)
-        shared = same.any(axis=-1).all(axis=0).sum(axis=-1)
-        several = 1 + (np.diff(np.sort(names, axis=0), axis=0) > 0).sum(axis=0)
-        points = transform_points(of.world_from_object, corners.reshape(-1, 3).T)
-        depth = film_of(camera, points)[2].reshape(corners.shape[:-1])
-        whole = ((depth >= camera.clip_start) & (depth <= camera.clip_end)).all(axis=(0, 2))
-        closed = pixels[whole & (shared >= np.maximum(4 - several, 1))]
-        out[closed] = np.max([hits.t[closed] for hits in beside], axis=0)
+    names = np.stack([h.triangle[asked] for h in beside])  # (samples, pixels)
+    corners = world_corners(scene, instance[:, asked].ravel(), names.ravel())
+    depth = film_of(scene.camera, corners.swapaxes(0, 1).reshape(3, -1))[2].reshape(3, *names.shape)
+    whole = ((depth >= scene.camera.clip_start) & (depth <= scene.camera.clip_end)).all(axis=(0, 1))
+    corners = corners.reshape(3, 3, *names.shape)
+    same = (corners[:, None, :, :1] == corners).all(axis=2)  # with those of the first sample
+    shared = same.any(axis=1).all(axis=1).sum(axis=0)
+    several = 1 + (np.diff(np.sort(names, axis=0), axis=0) > 0).sum(axis=0)
+    closed = asked[whole & (shared >= np.maximum(4 - several, 1))]
+    out = np.full(len(asks), np.inf)
+    out[closed] = np.max([hits.t[closed] for hits in beside], axis=0)
     return out

@@ -23,7 +23,6 @@ from ...tracer.frame import Frame
 from ...tracer.hits import Hits
 from ...tracer.nearest import test_pairs, test_planes
 from ...tracer.progress import Work
-from ...tracer.settings import Precision, Settings
 from ...tracer.shading import positions
 from ...tracer.world import Pairs, WorldTriangles
 from ..case import Case
@@ -99,10 +98,7 @@ class OpenPixels:
             (self.out.allowed, allowed),
             (self.open, False),
         ):
-            if isinstance(at, slice):
-                np.copyto(values[at], given, where=new)
-            else:
-                values[at] = np.where(new, given, values[at])
+            values[at] = np.where(new, given, values[at])
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,10 +109,9 @@ class Probe:
     px: Floats  # (n,) film positions of the centres, in pixels of the whole picture
     py: Floats
     chunks: list[Pairs]  # `pixel` numbers the n pixels
-    settings: Settings
 
     @classmethod
-    def of(cls, made: Plan, tile: Region, wanted: Bools, settings: Settings = SOUND) -> Work[Probe]:
+    def of(cls, made: Plan, tile: Region, wanted: Bools) -> Work[Probe]:
         """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True."""
         chunks = []
         for _, some in candidates(made, tile, wanted):
@@ -124,7 +119,7 @@ class Probe:
                 chunks.append(some)
             yield None
         px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
-        return cls(made.scene, px, py, _together(chunks), settings)
+        return cls(made.scene, px, py, _together(chunks))
 
     def take(self, some: Places) -> Probe:
         """Return the probe of some of the n pixels."""
@@ -141,12 +136,11 @@ class Probe:
         pixel: Index | slice = slice(None),
     ) -> Rays:
         """Return rays that pass the centres of some of the n pixels at (dx, dy), in pixels."""
-        dtype = Precision(self.settings.precision).dtype
-        return camera_rays(self.scene.camera, self.px[pixel] + dx, self.py[pixel] + dy, dtype)
+        return camera_rays(self.scene.camera, self.px[pixel] + dx, self.py[pixel] + dy)
 
     def points(self, hits: Hits) -> Floats:
         """Return where the rays through the n centres end, (n, 3) world space."""
-        return positions(camera_rays(self.scene.camera, self.px, self.py), hits)
+        return positions(self.rays(), hits)
 
     def trace(
         self, dx: Floats | float = 0.0, dy: Floats | float = 0.0, after: Hits | None = None
@@ -160,7 +154,7 @@ class Probe:
         hits = Hits.none(len(self.px))
         test_planes(self.scene, rays, hits, after)
         for some in self.chunks:
-            test_pairs(self.scene, self.settings, rays, some, hits, after)
+            test_pairs(self.scene, SOUND, rays, some, hits, after)
             yield None
         return hits
 

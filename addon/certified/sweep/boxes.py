@@ -118,7 +118,7 @@ def _corners(scene: Scene) -> tuple[Vectors, Floats]:
 
     And a bound on the numbers that they are computed from, (n,).
     """
-    low, high = np.array([m.bounds for m in scene.meshes])[scene.instance_meshes].transpose(1, 2, 0)
+    low, high = scene.instance_bounds
     matrices = scene.instance_matrices
     ends = [
         np.stack([(low, high)[corner >> axis & 1][axis] for axis in range(3)])

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Bools, Floats, Index, Integers, Places, groups, parts
-from ...scene import Mesh, Scene
+from ...scene import Scene
 from ...tracer.progress import Work
 from ...tracer.vector import Vectors, gather, occurring, transform_points
 from .film import Film
-from .small_triangles import SmallTriangles
+from .small_triangles import Part, SmallTriangles
 from .vertices import Vertices
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
@@ -130,30 +130,15 @@ def chunks(scene: Scene, in_view: Bools, depth: Floats, limit: int, dense: Bools
     return [out[k] for k in np.argsort(nearest, kind="stable")]
 
 
-@dataclass(frozen=True, eq=False)
-class _Part:
-    """Triangles of k instances of a mesh, `counts` (k,) of each.
-
-    `corners` (3, m) index `used` (v,). A vertex there is its number in the mesh, plus the mesh's
-    number of vertices for each instance before. `own` (m,) is as in `Names`.
-    """
-
-    mesh: Mesh
-    instances: Integers
-    counts: Index
-    corners: Integers
-    used: Index
-    own: Integers | None = None
-
-    def world(self, scene: Scene) -> Iterator[tuple[int, Vectors]]:
-        """Yield some thousand vertices in world space at a time, after the first one's number."""
-        matrices = scene.instance_matrices[:3, :, self.instances]
-        count = len(self.mesh.vertices)
-        for part in parts(len(self.used), _CHUNK):
-            copy = self.used[part] // count
-            vertex = self.used[part] - copy * count
-            own = matrices[..., copy[:1]] if copy[0] == copy[-1] else gather(matrices, copy)
-            yield part.start, transform_points(own, self.mesh.vertices.take(vertex, axis=0).T)
+def _world(scene: Scene, of: Part) -> Iterator[tuple[int, Vectors]]:
+    """Yield some thousand vertices in world space at a time, after the first one's number."""
+    matrices = scene.instance_matrices[:3, :, of.instances]
+    vertices = of.mesh.vertices
+    for part in parts(len(of.used), _CHUNK):
+        copy = of.used[part] // len(vertices)
+        vertex = of.used[part] - copy * len(vertices)
+        own = matrices[..., copy[:1]] if copy[0] == copy[-1] else gather(matrices, copy)
+        yield part.start, transform_points(own, vertices.take(vertex, axis=0).T)
 
 
 def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Work[Expanded]:
@@ -161,7 +146,7 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Wor
 
     Vertices that are not finite there make triangles that are dropped, or decided elsewhere.
     """
-    found: list[_Part] = []
+    found: list[Part] = []
     for part in _parts(scene, chunk, small):
         if part:
             found.append(part)
@@ -171,7 +156,7 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Wor
     vertices = Vertices.empty(count, np.int16 if size < 1 << 14 else np.int32)
     at = 0
     for part in found:
-        for first, world in part.world(scene):
+        for first, world in _world(scene, part):
             film.enter(vertices, at + first, world)
             yield None
         part.corners[:] += at
@@ -185,14 +170,13 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Wor
     return Expanded(vertices, corners, names)
 
 
-def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part | None]:
+def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[Part | None]:
     """Yield a chunk's triangles, mesh by mesh, and None after each step in between."""
     of = scene.instance_meshes[chunk.instances]
     for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
         mesh = scene.meshes[scene.instances[members[0]].mesh]
         if chunk.dense:
-            for found in small.within(mesh, members):
-                yield _Part(mesh, *found) if found else None
+            yield from small.within(mesh, members)
             continue
         corners = mesh.triangles[chunk.first : chunk.last].T
         count = len(mesh.vertices)
@@ -202,4 +186,4 @@ def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part 
         counts = np.full(len(members), corners.shape[1])
         starts = count * np.arange(len(members), dtype=np.int32)
         corners = (corners[:, None] + starts[:, None]).reshape(3, -1)
-        yield _Part(mesh, members, counts, corners, used)
+        yield Part(mesh, members, counts, corners, used)

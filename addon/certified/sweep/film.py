@@ -120,7 +120,7 @@ class Film:
         columns = scene.instance_matrices[:3].copy()  # (3, 4, n)
         size = 1.01 * (reaches(scene).max(axis=0, initial=0) + np.abs(camera.origin).max())
         columns[:, 3] -= camera.origin[:, None]
-        reach = np.abs([m.bounds for m in scene.meshes]).max(axis=(1, 2))[scene.instance_meshes]
+        reach = np.abs(scene.instance_bounds).max(axis=(0, 1))
         size = with_room(size, np.abs(columns).max(axis=(0, 1)), reach)
         right, up, depth = (
             d[0] * columns[0] + d[1] * columns[1] + d[2] * columns[2] for d in self.dual

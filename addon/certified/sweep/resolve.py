@@ -25,7 +25,6 @@ from ..measures import Known, Measured
 from .chunks import Numbering
 from .depth_buffer import DepthBuffer, Fragments
 from .film import Film
-from .tournament import tournament
 
 _PAIRS = 1 << 15  # pairs that a ladder tests at a time
 _FRAGMENTS = 1 << 17  # fragments tested together: a step of some milliseconds
@@ -134,4 +133,4 @@ class Resolver:
         for part in parts(len(ray), _PAIRS):
             ladder.test(Pairs(ray[part], row[part], triangles))
             yield None
-        return (yield from ladder.hits(self.statistics, tournament))
+        return (yield from ladder.hits(self.statistics))

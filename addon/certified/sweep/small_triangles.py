@@ -39,16 +39,17 @@ _BOTH = np.uint32(0x80008000)  # the highest bits of two sums
 _MARGIN = 0.25  # pixels: instances with a wider margin are not dense
 
 
-class Visible(NamedTuple):
-    """Triangles of k instances of a mesh that may cover a pixel."""
+class Part(NamedTuple):
+    """Triangles of k instances of a mesh."""
 
+    mesh: Mesh
     instances: Integers  # (k,)
     counts: Index  # (k,) how many triangles of each
     corners: Integers  # (3, m) which of `used` their vertices are
     # (v,) those vertices: the number in the mesh, plus the mesh's number of vertices for each
     # instance before.
     used: Index
-    triangle: Integers  # (m,) their numbers in the mesh, instance by instance
+    own: Integers | None = None  # (m,) their numbers in the mesh, as in `chunks.Names`
 
 
 class SmallTriangles:
@@ -70,7 +71,7 @@ class SmallTriangles:
         of = scene.instance_meshes
         self._scene = scene
         self._region = region
-        low, high = np.array([m.bounds for m in scene.meshes])[of].transpose(1, 2, 0)
+        low, high = scene.instance_bounds
         reach = np.concatenate((np.maximum(np.abs(low), np.abs(high)), np.ones((1, len(of)))))
         (x, y, w, _), size = film.rows(scene)
         self._matrices = np.stack((x, y, w)).astype(np.float32)
@@ -92,7 +93,7 @@ class SmallTriangles:
         known &= largest(most, np.full_like(most, far)) < _FARTHEST // 2
         self.is_dense = known & (counts > _PER_PIXEL * area)
 
-    def within(self, mesh: Mesh, members: Integers) -> Iterator[Visible | None]:
+    def within(self, mesh: Mesh, members: Integers) -> Iterator[Part | None]:
         """Find the triangles of instances `members` of a mesh that may cover a pixel.
 
         Yields those of some instances and triangles at a time, and None after each step in between.
@@ -125,7 +126,7 @@ class SmallTriangles:
             # Once for all parts, as it looks at every vertex of the mesh.
             used, at = occurring(at, ends.size)
             counts = np.bincount(copy, minlength=len(some))
-            yield Visible(some, counts, at, used, triangle)
+            yield Part(mesh, some, counts, at, used, triangle)
 
     def _ends(self, vertices: Colors, members: Index) -> NDArray[np.int64]:
         """Return the pixels that a triangle may cover at each vertex, (k, v), as 4 x 16 bits.

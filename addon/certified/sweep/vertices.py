@@ -21,6 +21,7 @@ class Vertices:
     says whether the vertex is finite in world space.
     """
 
+    box: Index
     p: Floats
     q: Floats
     w: Floats
@@ -29,7 +30,6 @@ class Vertices:
     depth: Floats
     size: Floats
     nearest: Floats
-    box: Index
     ahead: Bools
     certain: Bools
     finite: Bools
@@ -37,17 +37,5 @@ class Vertices:
     @classmethod
     def empty(cls, count: int, dtype: type[np.integer]) -> Vertices:
         """Return arrays for this many vertices, to be filled; boxes are of this dtype."""
-        return cls(
-            p=np.empty(count),
-            q=np.empty(count),
-            w=np.empty(count),
-            x=np.empty(count),
-            y=np.empty(count),
-            depth=np.empty(count),
-            size=np.empty(count),
-            nearest=np.empty(count),
-            box=np.empty((count, 4), dtype),
-            ahead=np.empty(count, bool),
-            certain=np.empty(count, bool),
-            finite=np.empty(count, bool),
-        )
+        numbers, flags = np.empty((8, count)), np.empty((3, count), bool)
+        return cls(np.empty((count, 4), dtype), *numbers, *flags)

@@ -1,7 +1,7 @@
 """The commands, a file each: `add` declares a command's options.
 
-Each command makes a frozen record of what was parsed, which checks it, and works from that.
-`reftrace` has all of them, `blender --command` all that are part of the add-on. A command is
+One with many options makes a frozen record of what was parsed, which checks it, and works from
+that. `reftrace` has all of them, `blender --command` all that are part of the add-on. A command is
 imported once it is asked for, so that `--help` takes no time.
 """
 

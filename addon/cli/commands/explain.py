@@ -6,7 +6,6 @@ import sys
 from argparse import Namespace
 from collections.abc import Sequence
 from contextlib import redirect_stdout
-from dataclasses import dataclass
 from pathlib import Path
 
 from ...derivation import reproducer
@@ -25,47 +24,9 @@ from ..parser import AGREE, COUNT, INTEGER, Parser
 from ..running import meanwhile
 
 
-@dataclass(frozen=True)
-class ExplainOptions:
-    """The options of `reftrace explain`."""
-
-    scene: Path
-    pixel: Sequence[int] | None  # x, y; None of a reproducer, which is one pixel by itself
-    limit: int
-    choice: Choice
-    out: Path | None
-    reproducer: Path | None
-
-    @classmethod
-    def parsed(cls, given: Namespace) -> ExplainOptions:
-        """Return what was parsed; raises SceneError if options contradict one another."""
-        out, again = given.out, given.reproducer
-        if out and again and place_of(out) == place_of(again):
-            raise SceneError(f"--out and --reproducer are the same file, '{out}'")
-        choice = Choice()
-        if given.scene.suffix.lower() == ".json":
-            why = f"is not for '{given.scene}', which is one pixel by itself"
-            refuse(given, ("pixel", "limit", *CAMERA_OPTIONS), why)
-        elif given.pixel is None:
-            raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
-        else:
-            choice = choice_from(given, given.scene)
-        return cls(
-            scene=given.scene,
-            pixel=given.pixel,
-            limit=given.limit or LIMIT,
-            choice=choice,
-            out=out,
-            reproducer=again,
-        )
-
-
 def add(parser: Parser) -> None:
     """Add the command's options."""
-    parser.runs(
-        lambda given: explain(ExplainOptions.parsed(given)),
-        "reftrace explain scene.blend --pixel 480 270 --out pixel.html",
-    )
+    parser.runs(explain, "reftrace explain scene.blend --pixel 480 270 --out pixel.html")
     parser.add_scene(f"{SOURCES}, or a pixel.json that --reproducer wrote")
     parser.add_argument(
         "--pixel",
@@ -96,19 +57,28 @@ def add(parser: Parser) -> None:
     add_camera(parser)
 
 
-def explain(options: ExplainOptions) -> int:
+def explain(given: Namespace) -> int:
     """Derive, and print or write it."""
-    found = _gathered(options)
-    show(*pixel.write(found, options.out, options.reproducer).removesuffix("\n").split("\n"))
+    out, again = given.out, given.reproducer
+    if out and again and place_of(out) == place_of(again):
+        raise SceneError(f"--out and --reproducer are the same file, '{out}'")
+    if given.scene.suffix.lower() == ".json":
+        why = f"is not for '{given.scene}', which is one pixel by itself"
+        refuse(given, ("pixel", "limit", *CAMERA_OPTIONS), why)
+        found = reproducer.read(given.scene)
+    elif given.pixel is None:
+        raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
+    else:
+        choice = choice_from(given, given.scene)
+        found = _gathered(given.scene, choice, given.pixel, given.limit or LIMIT)
+    show(*pixel.write(found, out, again).removesuffix("\n").split("\n"))
     return AGREE
 
 
-def _gathered(options: ExplainOptions) -> Pixel:
-    if options.pixel is None:
-        return reproducer.read(options.scene)
+def _gathered(path: Path, choice: Choice, at: Sequence[int], limit: int) -> Pixel:
+    x, y = at
     # Notes, Blender's too, are no part of the Markdown.
     with exr.redirected(1, 2), redirect_stdout(sys.stderr):
-        scene, _ = load(options.scene, options.choice)
-    x, y = options.pixel
+        scene, _ = load(path, choice)
     with meanwhile("finding what the ray may meet"):
-        return gather_pixel(scene, x, y, options.limit, options.scene.name)
+        return gather_pixel(scene, x, y, limit, path.name)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from dataclasses import dataclass
 from pathlib import Path
 
 from ...files.scenes import save_scene
@@ -17,28 +16,15 @@ from ..opening import open_file
 from ..parser import AGREE, Parser
 
 
-@dataclass(frozen=True)
-class ExportOptions:
-    """The options of `reftrace export`."""
-
-    scene: Path
-    out: Path
-    choice: Choice
-
-    @classmethod
-    def parsed(cls, given: Namespace) -> ExportOptions:
-        """Return what was parsed; raises SceneError if options contradict one another."""
-        if not is_blend(given.scene):
-            raise SceneError(f"'{given.scene}' is not a .blend: only those are exported")
-        return cls(given.scene, given.out, choice_from(given, given.scene))
-
-
 def add(parser: Parser) -> None:
     """Add the command's options."""
-    parser.runs(
-        lambda given: export(ExportOptions.parsed(given)),
-        "reftrace export scene.blend --out scene.npz",
-    )
+
+    def run(given: Namespace) -> int:
+        if not is_blend(given.scene):
+            raise SceneError(f"'{given.scene}' is not a .blend: only those are exported")
+        return export(given.scene, given.out, choice_from(given, given.scene))
+
+    parser.runs(run, "reftrace export scene.blend --out scene.npz")
     parser.add_scene("scene.blend")
     parser.add_argument(
         "--out",
@@ -50,12 +36,12 @@ def add(parser: Parser) -> None:
     add_camera(parser)
 
 
-def export(options: ExportOptions) -> int:
+def export(scene: Path, out: Path, choice: Choice) -> int:
     """Export, and write the scene."""
-    with folders.made_for_file(options.out):
-        opened = open_file(options.scene, options.choice)
+    with folders.made_for_file(out):
+        opened = open_file(scene, choice)
         show(*opened.manifest.lines())
-        with folders.replacing_file(options.out) as new:
+        with folders.replacing_file(out) as new:
             save_scene(new, opened.scene, opened.manifest)
-    show(f"{count_of(opened.scene.triangle_count, 'triangle')}: {options.out}")
+    show(f"{count_of(opened.scene.triangle_count, 'triangle')}: {out}")
     return AGREE

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from dataclasses import dataclass
 from pathlib import Path
 
 from ...report import extremes as report
@@ -16,20 +15,11 @@ from ..parser import AGREE, COUNT, Parser
 from ..running import progress_bar
 
 
-@dataclass(frozen=True)
-class ExtremesOptions:
-    """The options of `reftrace extremes`."""
-
-    out: Path
-    rays: int | None  # through each scene, about
-    place: Place
-
-
 def add(parser: Parser) -> None:
     """Add the command's options."""
 
     def run(given: Namespace) -> int:
-        return extremes(ExtremesOptions(given.out, given.rays, place_from(given)))
+        return extremes(given.out, given.rays, place_from(given))
 
     parser.runs(run, "reftrace extremes --out out/")
     parser.add_argument(
@@ -40,12 +30,12 @@ def add(parser: Parser) -> None:
     )
 
 
-def extremes(options: ExtremesOptions) -> int:
-    """Measure, and print the breaking points."""
-    with folders.made(options.out):
-        with options.place as place, progress_bar() as progress:
-            rows = result_of(study.measure(rays=options.rays, **place), progress)
+def extremes(out: Path, rays: int | None, place: Place) -> int:
+    """Measure, and print the breaking points; `rays` are those through each scene, about."""
+    with folders.made(out):
+        with place as chosen, progress_bar() as progress:
+            rows = result_of(study.measure(rays=rays, **chosen), progress)
         show(*report.breaking_table(rows).split("\n"))
-        report.write(options.out, rows)
-        show(f"written to {options.out}")
+        report.write(out, rows)
+        show(f"written to {out}")
     return AGREE

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 from contextlib import nullcontext
-from dataclasses import dataclass
 from pathlib import Path
 
 from ...framing import Choice
@@ -22,37 +21,16 @@ from ..parser import AGREE, COUNT, INTEGER, Parser
 from ..running import progress_bar
 
 
-@dataclass(frozen=True)
-class TradeOptions:
-    """The options of `reftrace trade`."""
-
-    scene: Path
-    out: Path | None
-    samples: int
-    width: int | None  # of the largest picture
-    choice: Choice
-    place: Place
-
-    @classmethod
-    def parsed(cls, given: Namespace) -> TradeOptions:
-        """Return what was parsed; raises SceneError if options contradict one another."""
-        most = GivenSettings(samples=given.samples).over(Settings(samples=tradeoff.SAMPLES))
-        return cls(
-            scene=given.scene,
-            out=given.out,
-            samples=most.samples,
-            width=given.largest,
-            choice=choice_from(given, given.scene),
-            place=place_from(given),
-        )
-
-
 def add(parser: Parser) -> None:
     """Add the command's options."""
-    parser.runs(
-        lambda given: trade(TradeOptions.parsed(given)),
-        "reftrace trade sample_scenes/suzanne.blend --out out/",
-    )
+
+    def run(given: Namespace) -> int:
+        most = GivenSettings(samples=given.samples).over(Settings(samples=tradeoff.SAMPLES))
+        choice = choice_from(given, given.scene)
+        size = given.largest, most.samples
+        return trade(given.scene, choice, given.out, *size, place_from(given))
+
+    parser.runs(run, "reftrace trade sample_scenes/suzanne.blend --out out/")
     parser.add_scene(SOURCES)
     parser.add_argument(
         "--out", type=parser.path, metavar="DIR", help="folder for the table, JSON and plot"
@@ -74,16 +52,17 @@ def add(parser: Parser) -> None:
     add_camera(parser, (width,))
 
 
-def trade(options: TradeOptions) -> int:
-    """Measure, and print the table."""
-    with folders.made(options.out) if options.out else nullcontext():
-        scene, _ = load(options.scene, options.choice)
-        with options.place as place, progress_bar() as progress:
-            name = options.scene.name
-            work = tradeoff.measure(scene, options.width, options.samples, name, **place)
+def trade(
+    scene: Path, choice: Choice, out: Path | None, width: int | None, samples: int, place: Place
+) -> int:
+    """Measure, and print the table; `width` is that of the largest picture."""
+    with folders.made(out) if out else nullcontext():
+        loaded, _ = load(scene, choice)
+        with place as chosen, progress_bar() as progress:
+            work = tradeoff.measure(loaded, width, samples, scene.name, **chosen)
             found = result_of(work, progress)
         show(*report.table(found).split("\n"))
-        if options.out:
-            report.write(options.out, found)
-            show(f"written to {options.out}")
+        if out:
+            report.write(out, found)
+            show(f"written to {out}")
     return AGREE

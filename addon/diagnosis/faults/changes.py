@@ -16,13 +16,12 @@ import numpy as np
 from ...arrays import Bools, Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Instance, Scene
-from ...tracer.camera import film_of
 from ...tracer.progress import Work
 from ...tracer.vector import transform_points
 from .fault import Values, with_instances
 from .fitting import FOUND
 from .looked import Looked
-from .matching import Fitted, fitted, matches
+from .matching import Fitted, fitted, matches, seen_by
 from .search import Search, values_of
 from .stand import rotation
 
@@ -73,7 +72,7 @@ class Change:
         def seen(units: Floats) -> Floats:
             numbers = self.none + axes @ units
             matrix = self.matrix(own.world_from_object.copy(), bounds, *numbers)
-            return np.stack(film_of(camera, transform_points(matrix, points))[:2])
+            return seen_by(camera, transform_points(matrix, points))
 
         return fitted(places, seen, axes.shape[1])
 
@@ -100,9 +99,9 @@ def _moves(looked: Looked) -> Floats:
     return looked.axes()[:, : 2 if parallel else 3]
 
 
-def _unseen_moves(looked: Looked) -> Floats | None:
+def _unseen_moves(looked: Looked) -> Floats:
     seen = _moves(looked).shape[1]
-    return looked.axes()[:, seen:] if seen < 3 else None
+    return looked.axes()[:, seen:]
 
 
 def _places(looked: Looked) -> Iterable[Values]:

@@ -15,7 +15,7 @@ from typing import Any, Generic, TypeVar
 
 from ...arrays import Colors
 from ...causes.case import Case
-from ...scene import Camera, Instance, Mesh, Scene
+from ...scene import Camera, Instance, Mesh, Scene, alike
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, at_once
 from ..evidence import Evidence
@@ -169,7 +169,9 @@ def of_camera(change: Callable[..., Camera | None]) -> Make[Guess]:
 
     def assume(case: Case, guess: Guess) -> Case | None:
         camera = change(case.scene.camera, *guess.values)
-        return None if camera is None else case.with_scenes(lambda scene: scene.seen_by(camera))
+        if camera is None or alike(camera, case.scene.camera):
+            return None
+        return case.with_scenes(lambda scene: scene.seen_by(camera))
 
     return assume
 

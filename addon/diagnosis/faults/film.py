@@ -88,7 +88,7 @@ def _focal(camera: Camera, percent: float) -> str:
     return f"the focal length is {percent:+.4g} % off: {millimetres}; {shows}"
 
 
-OFFSET = Family(offset, lambda evidence: (1.0, 1.0), _beside)
-FOCAL = Family(_zoomed, lambda evidence: (100 / radius(evidence),), _focal, _zooms)
-FOCALS = Family(_stretched, lambda evidence: (100 / radius(evidence),) * 2)
-CROPPED = Family(_cropped, lambda evidence: (100 / radius(evidence), 1.0, 1.0))
+OFFSET = Family(offset, lambda evidence: np.eye(2), _beside)
+FOCAL = Family(_zoomed, lambda evidence: 100 * np.eye(1) / radius(evidence), _focal, _zooms)
+FOCALS = Family(_stretched, lambda evidence: 100 * np.eye(2) / radius(evidence))
+CROPPED = Family(_cropped, lambda evidence: np.diag((100 / radius(evidence), 1.0, 1.0)))

@@ -72,14 +72,13 @@ def _find_samples(evidence: Evidence) -> Work[list[Mean]]:
     probe = yield from evidence.probe(scene, reach=0.75)
     for n in MEANS:
         places = [((i + 0.5) / n - 0.5) for i in range(n)]
-        totals = [np.zeros((len(evidence.unexplained_sampled), 4)) for _ in CODINGS]
+        seen = []
         for dx, dy in product(places, repeat=2):
             hits = yield from probe.trace(dx, dy)
-            seen = shading.colors(scene, hits)
-            for total, coding in zip(totals, CODINGS, strict=True):
-                total += coding.into(seen) / n**2
-        for total, coding in zip(totals, CODINGS, strict=True):
-            if sampled_right(evidence, coding.back(total)):
+            seen.append(shading.colors(scene, hits).astype(np.float64))
+        for coding in CODINGS:
+            mean = np.mean([coding.into(colors) for colors in seen], axis=0)
+            if sampled_right(evidence, coding.back(mean)):
                 out.append(Mean(n, coding, words=coding.words, values=(float(n),)))
     return out
 

@@ -18,13 +18,13 @@ from ...arrays import Bools, Floats
 from ...causes.checks.probe import Probe
 from ...rendering import steps
 from ...scene import Camera
-from ...tracer.camera import camera_rays, film_of
+from ...tracer.camera import camera_rays
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import WORTH, Evidence
 from .fault import Numbers, Values, of_camera
 from .matching import Fitted, fitted, is_everywhere, matches, seen_by
-from .search import Search, values_of
+from .search import Right, Search, values_of
 
 REACH = 4.0  # pixels that a camera's rays may move before its candidates are found anew
 FINE_REACH = 1.0  # the same in a refinement: fewer triangles are near
@@ -56,7 +56,7 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
     with np.errstate(invalid="ignore"):
         rays = camera_rays(camera, *evidence.film[:, few])
         # A panorama's or perspective's rays pass one point: any point of them will do.
-        film = np.stack(film_of(own, rays.at(np.ones(rays.count)))[:2])
+        film = seen_by(own, rays.at(np.ones(rays.count)))
         column, row = np.floor(film - ((own.region.x0,), (own.region.y0,)))
     height, width = evidence.unexplained.shape
     inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
@@ -76,8 +76,8 @@ class Family:
     """Cameras that differ in a few numbers."""
 
     camera: Callable[..., Camera | None]
-    # Changes of the numbers that move the film by about a pixel: (m, k) columns, or of each, (m,).
-    axes: Callable[[Evidence], Floats | Values]
+    # Changes of the numbers that move the film by about a pixel, (m, k) columns.
+    axes: Callable[[Evidence], Floats]
     words: Callable[..., str] = lambda camera, *numbers: ""
     # Numbers that are looked up where edges moved too far to be found.
     starts: Callable[[Evidence], Iterator[Values]] = lambda evidence: iter(())
@@ -86,11 +86,6 @@ class Family:
     # Changes of the numbers, (m, j) columns, that change nothing in the picture.
     unseen: Callable[[Evidence], Floats | None] = lambda evidence: None
 
-    def columns(self, evidence: Evidence) -> Floats:
-        """Return the axes as columns, (m, k)."""
-        axes = np.asarray(self.axes(evidence))
-        return np.diag(axes) if axes.ndim == 1 else axes
-
     def matched(self, evidence: Evidence) -> Fitted | None:
         """Return the numbers, in units, with which the edges are where the picture has them."""
         return evidence.once(f"matched {id(self)}", lambda: self._matched(evidence, evidence))
@@ -98,14 +93,15 @@ class Family:
     def followed(self, evidence: Evidence) -> Work[Fitted | None]:
         """Return the same, found again in what is traced there: far away, much looks otherwise.
 
-        Only where it has many numbers, and explains some edges (cached).
+        Only where it has many numbers, and explains some edges.
         """
-        key, found = f"followed {id(self)}", self.matched(evidence)
-        axes, scene = self.columns(evidence), evidence.case.scene
-        if key not in evidence.known and found and len(axes) > ENCLOSED:
-            for _ in range(FOLLOWED if found.share >= FOUND / 2 else 0):
+        found, axes, scene = self.matched(evidence), self.axes(evidence), evidence.case.scene
+        if found and found.share >= FOUND / 2 and len(axes) > ENCLOSED:
+            for _ in range(FOLLOWED):
                 camera = self.camera(scene.camera, *axes @ found.units)
-                frame = Frame.empty(scene if camera is None else scene.seen_by(camera))
+                if camera is None:
+                    break
+                frame = Frame.empty(scene.seen_by(camera))
                 yield from steps(frame.scene, evidence.case.settings, frame)
                 case = evidence.case.in_scene(frame.scene)
                 there = replace(evidence, case=case, frame=frame, known={})
@@ -113,13 +109,12 @@ class Family:
                 if again is None or again.share <= found.share:
                     break
                 found = again
-            evidence.known[key] = found
-        return evidence.known.get(key, found)
+        return found
 
     def _matched(
         self, evidence: Evidence, there: Evidence, units: Floats | float = 0.0
     ) -> Fitted | None:
-        axes = self.columns(evidence)
+        axes = self.axes(evidence)
         own = evidence.case.scene.camera
         found = matches(there)
 
@@ -138,7 +133,7 @@ def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
 
     def refine(evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
         fine = bool(guess.low)
-        axes, known = family.columns(evidence), len(guess.values) <= ENCLOSED
+        axes, known = family.axes(evidence), len(guess.values) <= ENCLOSED
         reach = FINE_REACH if fine else REACH
         if not known:
             evidence = replace(evidence, size=min(evidence.size, FITTED))
@@ -146,7 +141,7 @@ def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
             axes = axes @ found.axes if found else axes
             reach *= WIDER
         search = Search(
-            Traced(evidence, family.camera, reach).right,
+            traced(evidence, family.camera, reach),
             axes,
             least=evidence.least_right(family.worth),
             unseen=family.unseen(evidence),
@@ -168,7 +163,7 @@ def fitting(family: Family, *rivals: Family) -> dict[str, Any]:
                 out.append(Numbers(start, start, start, words=family.words(own, *start)))
             elif guess:
                 out.append(guess)
-                right = yield from Traced(few, family.camera).right(guess.values)
+                right = yield from traced(few, family.camera)(guess.values)
                 if right is not None and right.mean() >= ENOUGH:
                     break
         return out
@@ -181,7 +176,7 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
 
     Where as many edges are explained by no change, they moved by less than a pixel, or not at all.
     """
-    axes, own = family.columns(evidence), evidence.case.scene.camera
+    axes, own = family.axes(evidence), evidence.case.scene.camera
     none = (0.0,) * len(axes)
     if family.camera(own, *none) is None:
         return []
@@ -192,26 +187,19 @@ def _likely(evidence: Evidence, family: Family, rivals: Sequence[Family]) -> Wor
     if found and still and (most := max(found.share, still.share, *others)) >= FOUND:
         moves = found.share >= still.share + MORE or is_everywhere(evidence)
         return [values_of(axes @ found.units)] if moves and found.share >= NEARLY * most else []
-    units = np.linalg.pinv(axes)
     least = looked_up(evidence, own) + BETTER
     scores: list[tuple[float, Values]] = []
     for number, values in enumerate(family.starts(evidence)):
         camera = family.camera(own, *values)
-        score = 0.0 if camera is None else looked_up(evidence, camera)
-        if score > least:
+        if camera and (score := looked_up(evidence, camera)) > least:
             scores.append((score, values))
         if number % 32 == 0:
             yield None
-    best: list[Values] = []
-    for _, values in sorted(scores, key=lambda pair: -pair[0]):
-        apart = [np.abs(units @ np.subtract(values, b)).max() > REACH for b in best]
-        if len(best) < KEPT and all(apart):
-            best.append(values)
-    return best
+    return [values for _, values in sorted(scores, key=lambda pair: -pair[0])[:KEPT]]
 
 
-class Traced:
-    """Says which pixels of a sample are right with a camera of some numbers.
+def traced(evidence: Evidence, change: Callable[..., Camera | None], reach: float = REACH) -> Right:
+    """Return a function: which pixels of a sample are right with a camera of some numbers.
 
     Rays are tested with the triangles near those of a camera that was prepared, as long as what
     they meet is seen near enough by it.
@@ -220,42 +208,29 @@ class Traced:
     ----------
     evidence : Evidence
         With the sample, and the scene that is traced.
-    camera : callable
+    change : callable
         The camera with some numbers, from the scene's own one.
     reach : float
         Pixels that rays may pass beside where they start.
     """
+    guide = evidence.points[:, _few(evidence)]  # how far it moves says whether triangles stay near
+    probes: list[Probe] = []  # the last one first
 
-    def __init__(
-        self,
-        evidence: Evidence,
-        camera: Callable[..., Camera | None],
-        reach: float = REACH,
-    ) -> None:
-        self.evidence = evidence
-        self.camera = camera
-        self.reach = reach
-        # What is seen: how far it moves says whether triangles stay near.
-        self.guide = evidence.points[:, _few(evidence)]
-        self.probes: list[Probe] = []  # the last one first
+    def is_near(prepared: Camera, camera: Camera) -> bool:
+        with np.errstate(all="ignore"):
+            moved = np.abs(seen_by(camera, guide) - seen_by(prepared, guide))
+        known = np.isfinite(moved)
+        return bool(known.any() and moved[known].max() <= reach)
 
-    def right(self, values: Values) -> Work[Bools | None]:
-        """Return which of the n pixels agree, (n,); None if there is no such camera."""
-        evidence = self.evidence
-        camera = self.camera(evidence.case.scene.camera, *values)
+    def right(values: Values) -> Work[Bools | None]:
+        camera = change(evidence.case.scene.camera, *values)
         if camera is None:
             return None
         scene = evidence.case.scene.seen_by(camera)
-        probe = next((p for p in self.probes if self._near(p.scene.camera, camera)), None)
+        probe = next((p for p in probes if is_near(p.scene.camera, camera)), None)
         if probe is None:
-            probe = yield from evidence.probe(scene, self.reach)
-            self.probes = [probe, *self.probes[: PREPARED - 1]]
+            probe = yield from evidence.probe(scene, reach)
+            probes[:] = [probe, *probes[: PREPARED - 1]]
         return evidence.agrees(scene, (yield from replace(probe, scene=scene).trace()))
 
-    def _near(self, prepared: Camera, camera: Camera) -> bool:
-        """Return whether a camera sees everything near where the prepared one does."""
-        with np.errstate(all="ignore"):
-            before, now = (np.stack(film_of(c, self.guide)[:2]) for c in (prepared, camera))
-            moved = np.abs(now - before)
-        known = np.isfinite(moved)
-        return bool(known.any() and moved[known].max() <= self.reach)
+    return right

@@ -5,13 +5,14 @@ The scenes with them come as the case's variants; see `blender/variants.py`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ...causes.case import Case
 from ...scene import Scene
 from ...tracer.frame import Frame
+from ...tracer.progress import at_once
 from ..evidence import Evidence
-from .fault import AnyFault, Example, Fault, Guess, always
+from .fault import Example, Fault, Guess
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,16 +27,6 @@ def in_its_scene(case: Case, guess: Given) -> Case:
     return case.in_scene(guess.scene)
 
 
-def given(evidence: Evidence, fault: AnyFault) -> list[tuple[AnyFault, Given]]:
-    """Return a fault with a guess for each of the case's variants that have it."""
-    in_scenes = replace(fault, assume=in_its_scene)
-    return [
-        (in_scenes, Given(v.scene, object=v.object, words=v.words))
-        for v in evidence.variants
-        if v.fault == fault.name
-    ]
-
-
 def _a_frame_later(case: Case, frame: Frame) -> Given | None:
     return None if case.next_frame is None else Given(case.next_frame)
 
@@ -43,8 +34,13 @@ def _a_frame_later(case: Case, frame: Frame) -> Given | None:
 def _given(
     name: str, sentence: str, why: str, advice: str, *examples: Example, witness: str
 ) -> Fault[Given]:
+    @at_once
+    def find(evidence: Evidence) -> list[Given]:
+        own = (v for v in evidence.variants if v.fault == name)
+        return [Given(v.scene, object=v.object, words=v.words) for v in own]
+
     return Fault(
-        name, sentence, why, advice, in_its_scene, always(), examples=examples, witness=witness
+        name, sentence, why, advice, in_its_scene, find, examples=examples, witness=witness
     )
 
 

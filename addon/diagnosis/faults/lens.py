@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import product
 
 from .fault import Example, Fault, Option, options, ways, with_option
@@ -25,28 +26,31 @@ from .lens_changes import (
 _EXCHANGED = options(
     # The principal point is measured from the middle of a picture with its sides exchanged; or the
     # picture has its sides exchanged, and is stretched to the scene's.
-    of_lenses(
-        lambda fx, fy, cx, cy, w, h: of_lens(fx, fy, cx - (w - h) / 2, cy + (w - h) / 2, w, h)
+    partial(
+        of_lenses,
+        lambda fx, fy, cx, cy, w, h: of_lens(fx, fy, cx - (w - h) / 2, cy + (w - h) / 2, w, h),
     ),
-    of_lenses(lambda fx, fy, cx, cy, w, h: of_lens(fx, fy, cx, cy, h, w)),
+    partial(of_lenses, lambda fx, fy, cx, cy, w, h: of_lens(fx, fy, cx, cy, h, w)),
 )
 _DIVIDED = options(
-    of_lenses(lambda fx, fy, cx, cy, w, h: of_lens(fx / w, fy / h, cx / w, cy / h, w, h))
+    partial(of_lenses, lambda fx, fy, cx, cy, w, h: of_lens(fx / w, fy / h, cx / w, cy / h, w, h))
 )
 
 PARTS = (0.25, 0.5, 0.75, 2.0, 4.0)  # sizes for which a percentage of the resolution is tried
 
-_FIT = options(*(fits(power, shifted) for power in (1, -1) for shifted in (True, False)))
-_LEFT_OUT = ways(("", times(0, 0)), (" across", times(0, 1)), (" up", times(1, 0)))
-_SIGN = options(times(-1, -1), times(-1, 1), times(1, -1))
+_FIT = options(*(partial(fits, power, shifted) for power in (1, -1) for shifted in (True, False)))
+_LEFT_OUT = ways(
+    ("", partial(times, 0, 0)), (" across", partial(times, 0, 1)), (" up", partial(times, 1, 0))
+)
+_SIGN = options(partial(times, -1, -1), partial(times, -1, 1), partial(times, 1, -1))
 _UNIT = options(
-    *(powers(aspect, x, y) for x, y in product((-1, 0, 1), repeat=2) if x + y),
-    times(0.5, 0.5),
-    times(2, 2),
+    *(partial(powers, aspect, x, y) for x, y in product((-1, 0, 1), repeat=2) if x + y),
+    partial(times, 0.5, 0.5),
+    partial(times, 2, 2),
 )
 _LENGTH = options(
     *(
-        powers(length, power, power)
+        partial(powers, length, power, power)
         for power in (-1, 1)
         for length in (
             lambda camera: SENSOR,
@@ -56,15 +60,17 @@ _LENGTH = options(
     )
 )
 _SQUARE = options(
-    *(square(by_width, shifted) for shifted in (True, False) for by_width in (True, False))
+    *(partial(square, by_width, shifted) for shifted in (True, False) for by_width in (True, False))
 )
-_SPANNED = options(spanned(True, True), spanned(True, False), spanned(False, True))
-_PERCENTAGE = options(*(part(scale, top) for scale in PARTS for top in (True, False)))
+_SPANNED = options(
+    partial(spanned, True, True), partial(spanned, True, False), partial(spanned, False, True)
+)
+_PERCENTAGE = options(*(partial(part, scale, top) for scale in PARTS for top in (True, False)))
 _SCALE = options(
-    orthographic(aspect),
-    orthographic(lambda camera: 1 / aspect(camera)),
-    orthographic(lambda camera: 0.5),
-    orthographic(lambda camera: 2.0),
+    partial(orthographic, aspect),
+    partial(orthographic, lambda camera: 1 / aspect(camera)),
+    partial(orthographic, lambda camera: 0.5),
+    partial(orthographic, lambda camera: 2.0),
 )
 _BORDER = options(whole_view, other_border)
 

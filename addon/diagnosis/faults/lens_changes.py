@@ -1,4 +1,4 @@
-"""Changes of a camera by a mistaken lens, sensor, shift or resolution."""
+"""Changes of a camera by a mistaken lens, sensor, shift or resolution; None if there is none."""
 
 from __future__ import annotations
 
@@ -11,8 +11,6 @@ from ...camera_files.frame import intrinsics
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Region, ViewWindow
 from ...tracer.camera import pixel_size
-
-Change = Callable[[Camera], Camera | None]
 
 
 def scaled(x: float, y: float, camera: Camera) -> Camera:
@@ -31,69 +29,45 @@ def aspect(camera: Camera) -> float:
     return width / height
 
 
-def fits(power: float, shifted: bool) -> Change:
-    """Return a function that fits the lens to the other side, with the shift scaled or kept."""
-
-    def change(camera: Camera) -> Camera | None:
-        factor = aspect(camera) ** power
-        if not camera.projection.is_linear or factor == 1:  # a panorama has no sensor to fit
-            return None
-        if shifted:
-            return scaled(factor, factor, camera)
-        return about_centre(camera, factor, factor) if any(camera.window.centre) else None
-
-    return change
+def fits(power: float, shifted: bool, camera: Camera) -> Camera | None:
+    """Fit the lens to the other side, with the shift scaled or kept; a panorama has no sensor."""
+    factor = aspect(camera) ** power
+    if not camera.projection.is_linear:
+        return None
+    if shifted:
+        return scaled(factor, factor, camera)
+    return about_centre(camera, factor, factor) if any(camera.window.centre) else None
 
 
-def powers(length: Callable[[Camera], float], x: float, y: float) -> Change:
-    """Return a function that multiplies the shifts by powers of a length; None if they stay."""
-
-    def change(camera: Camera) -> Camera | None:
-        return times(length(camera) ** x, length(camera) ** y)(camera)
-
-    return change
+def powers(length: Callable[[Camera], float], x: float, y: float, camera: Camera) -> Camera:
+    """Multiply the shifts by powers of a length."""
+    return times(length(camera) ** x, length(camera) ** y, camera)
 
 
-def times(x: float, y: float) -> Change:
-    """Return a function that multiplies the shifts, across and up; None if they stay."""
-
-    def change(camera: Camera) -> Camera | None:
-        own = camera.window.centre
-        other = x * own[0], y * own[1]
-        if np.allclose(own, other, rtol=1e-9, atol=0):
-            return None
-        return replace(camera, window=camera.window.about(other))
-
-    return change
+def times(x: float, y: float, camera: Camera) -> Camera:
+    """Multiply the shifts, across and up."""
+    across, up = camera.window.centre
+    return replace(camera, window=camera.window.about((x * across, y * up)))
 
 
-def square(by_width: bool, shifted: bool) -> Change:
-    """Return a function that makes pixels square, with their own width or height.
+def square(by_width: bool, shifted: bool, camera: Camera) -> Camera | None:
+    """Make pixels square, with their own width or height.
 
     The window's distance from the axis is in pixels, too, or is kept.
     """
-
-    def change(camera: Camera) -> Camera | None:
-        width, height = pixel_size(camera)
-        if np.isclose(width, height, rtol=1e-6):
-            return None
-        x, y = (1, width / height) if by_width else (height / width, 1)
-        return scaled(x, y, camera) if shifted else about_centre(camera, x, y)
-
-    return change
+    width, height = pixel_size(camera)
+    if np.isclose(width, height, rtol=1e-6):
+        return None
+    x, y = (1, width / height) if by_width else (height / width, 1)
+    return scaled(x, y, camera) if shifted else about_centre(camera, x, y)
 
 
-def spanned(across: bool, up: bool) -> Callable[[Camera], Camera | None]:
-    """Return a function that spans the view from the first pixel's centre to the last one's."""
-
-    def change(camera: Camera) -> Camera | None:
-        w, h = camera.width, camera.height
-        if not camera.projection.is_linear or min(w, h) < 2:
-            return None
-        x, y = (w / (w - 1) if across else 1, h / (h - 1) if up else 1)
-        return about_centre(camera, x, y)
-
-    return change
+def spanned(across: bool, up: bool, camera: Camera) -> Camera | None:
+    """Span the view from the first pixel's centre to the last one's."""
+    w, h = camera.width, camera.height
+    if not camera.projection.is_linear or min(w, h) < 2:
+        return None
+    return about_centre(camera, w / (w - 1) if across else 1, h / (h - 1) if up else 1)
 
 
 def lengths(camera: Camera) -> tuple[float, float]:
@@ -102,45 +76,32 @@ def lengths(camera: Camera) -> tuple[float, float]:
     return camera.width, camera.height * height / width
 
 
-def orthographic(factor: Callable[[Camera], float]) -> Change:
-    """Return a function that scales the view of an orthographic camera by a factor of it."""
-
-    def change(camera: Camera) -> Camera | None:
-        if camera.projection is not ORTHOGRAPHIC or factor(camera) == 1:
-            return None
-        return scaled(factor(camera), factor(camera), camera)
-
-    return change
+def orthographic(factor: Callable[[Camera], float], camera: Camera) -> Camera | None:
+    """Scale the view of an orthographic camera by a factor of it."""
+    if camera.projection is not ORTHOGRAPHIC:
+        return None
+    return scaled(factor(camera), factor(camera), camera)
 
 
-def part(scale: float, top: bool) -> Callable[[Camera], Camera]:
-    """Return a function that crops the view to `scale` of it, at the lower or upper left."""
-
-    def change(camera: Camera) -> Camera:
-        w = camera.window
-        width, height = (scale * length for length in w.size)
-        bottom = w.top - height if top else w.bottom
-        return replace(camera, window=ViewWindow(w.left, w.left + width, bottom, bottom + height))
-
-    return change
+def part(scale: float, top: bool, camera: Camera) -> Camera:
+    """Crop the view to `scale` of it, at the lower or upper left."""
+    w = camera.window
+    width, height = (scale * length for length in w.size)
+    bottom = w.top - height if top else w.bottom
+    return replace(camera, window=ViewWindow(w.left, w.left + width, bottom, bottom + height))
 
 
-def whole_view(camera: Camera) -> Camera | None:
+def whole_view(camera: Camera) -> Camera:
     """Render the whole view into the border's region."""
     r = camera.region
-    if (r.width, r.height) == (camera.width, camera.height):
-        return None
     whole = Region(0, 0, r.width, r.height)
     return replace(camera, width=r.width, height=r.height, region=whole)
 
 
-def other_border(camera: Camera) -> Camera | None:
+def other_border(camera: Camera) -> Camera:
     """Count the rows of the border's region from the top."""
     r = camera.region
-    rows = camera.height - r.y1, camera.height - r.y0
-    if rows == (r.y0, r.y1):
-        return None
-    return replace(camera, region=Region(r.x0, rows[0], r.x1, rows[1]))
+    return replace(camera, region=Region(r.x0, camera.height - r.y1, r.x1, camera.height - r.y0))
 
 
 def of_lens(fx: float, fy: float, cx: float, cy: float, width: float, height: float) -> ViewWindow:
@@ -148,12 +109,8 @@ def of_lens(fx: float, fy: float, cx: float, cy: float, width: float, height: fl
     return ViewWindow(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)
 
 
-def of_lenses(of: Callable[..., ViewWindow]) -> Change:
-    """Return a function that gives a camera another lens: `of` fx, fy, cx, cy, width, height."""
-
-    def change(camera: Camera) -> Camera | None:
-        if not camera.projection.is_linear:
-            return None
-        return replace(camera, window=of(*intrinsics(camera), camera.width, camera.height))
-
-    return change
+def of_lenses(of: Callable[..., ViewWindow], camera: Camera) -> Camera | None:
+    """Give a camera another lens: `of` fx, fy, cx, cy, width, height."""
+    if not camera.projection.is_linear:
+        return None
+    return replace(camera, window=of(*intrinsics(camera), camera.width, camera.height))

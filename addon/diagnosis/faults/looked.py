@@ -13,7 +13,7 @@ import numpy as np
 from ...arrays import Bools, Floats, Places
 from ...pictures.bounds import largest_within
 from ...pictures.picture import Picture
-from ...scene import Scene
+from ...scene import Scene, without
 from ...tracer.camera import camera_rays, pixel_size
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
@@ -35,6 +35,7 @@ class Looked:
     rest: Scene  # without the object
     seen: Bools  # (h, w) where it is traced
     shown: Bools  # (h, w) where the picture shows it, as far as is known
+    around: Bools  # (h, w) both, and AROUND pixels beside them
     depth: float  # of the object, metres
     kept: bool  # whether it stays at its place, too
 
@@ -42,10 +43,7 @@ class Looked:
     def of(cls, evidence: Evidence, name: str, kept: bool = False) -> Work[Looked | None]:
         """Gather what is known of an object (cached); None if it can settle few pixels."""
         key = f"looked {name} {kept} {evidence.size} {evidence.fine}"
-        if key not in evidence.known:
-            evidence.known[key] = yield from cls._of(evidence, name, kept)
-        found: Looked | None = evidence.known[key]
-        return found
+        return (yield from evidence.done_once(key, cls._of(evidence, name, kept)))
 
     @classmethod
     def _of(cls, evidence: Evidence, name: str, kept: bool) -> Work[Looked | None]:
@@ -53,7 +51,6 @@ class Looked:
         own = instances_named(scene, name)
         if not own:  # an infinite plane
             return None
-        those = set(own)
         seen = np.isin(frame.instance_index, own)
         shown = _shown(evidence, own) & (evidence.unexplained | seen)
         if kept:
@@ -62,24 +59,23 @@ class Looked:
             return None
         around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
         chosen = np.zeros_like(seen)
-        around &= evidence.beside_edges if evidence.fine else True
-        for some in (around & evidence.unexplained, around & ~evidence.unexplained):
+        where = around & evidence.beside_edges if evidence.fine else around
+        for some in (where & evidence.unexplained, where & ~evidence.unexplained):
             chosen.flat[spread(some, evidence.size // 2)] = True
         rows, columns = np.nonzero(chosen)
         at = rows, columns
-        left = [i for n, i in enumerate(scene.instances) if kept or n not in those]
-        rest = replace(scene, instances=tuple(left))
+        rest = scene if kept else without(scene, [name])
         depth = float(np.median(frame.t[seen]))
         picture = evidence.picture.at(at)
         behind = yield from evidence.trace(rest, at)
-        out = cls(evidence, name, at, picture, behind, rest, seen, shown, depth, kept)
+        out = cls(evidence, name, at, picture, behind, rest, seen, shown, around, depth, kept)
         return out if out._may_settle >= WORTH * evidence.unexplained.sum() else None
 
     @property
     def alone(self) -> Scene:
         """The scene with the object alone."""
         scene = self.evidence.case.scene
-        return _alone(scene, instances_named(scene, self.name))
+        return only(scene, instances_named(scene, self.name))
 
     def right(self, changed: Scene) -> Work[Bools]:
         """Return which of the n pixels are right with the object as a scene has it, (n,)."""
@@ -91,9 +87,8 @@ class Looked:
     def _may_settle(self) -> float:
         """How many unexplained pixels may agree: they show the object, or what is behind it."""
         unexplained, may = self.evidence.unexplained[self.at], self._beneath | self.shown[self.at]
-        around = largest_within((self.seen | self.shown).astype(np.int8), AROUND) > 0
         share = float(np.mean(may[unexplained])) if unexplained.any() else 0.0
-        return share * int((around & self.evidence.unexplained).sum())
+        return share * int((self.around & self.evidence.unexplained).sum())
 
     @cached_property
     def _beneath(self) -> Bools:
@@ -164,9 +159,9 @@ def _shown(evidence: Evidence, own: list[int]) -> Bools:
     picture, scene = evidence.picture, evidence.case.scene
     if picture.owners:
         return np.isin(picture.owners.pixels, picture.owners.instances[own])
-    return shows_colors(picture, _alone(scene, own).color_table[:-1])
+    return shows_colors(picture, only(scene, own).color_table[:-1])
 
 
-def _alone(scene: Scene, own: list[int]) -> Scene:
+def only(scene: Scene, own: list[int]) -> Scene:
     """Return the scene with some instances alone."""
     return replace(scene, instances=tuple(scene.instances[n] for n in own), planes=())

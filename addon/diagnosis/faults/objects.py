@@ -13,6 +13,7 @@ from ...scene import Instance, Scene
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import at_once
+from ...wording import listed
 from ..evidence import LEAST_SEEN, Evidence
 from .changes import MOVED, SCALED, TURNED
 from .fault import (
@@ -28,7 +29,7 @@ from .fault import (
     of_object,
 )
 from .object_matrices import OBJECT_MATRIX_FAULTS
-from .pose import posing
+from .pose import Posed, posing
 from .search import values_of
 from .suspects import largest, seen_instances, suspects
 
@@ -67,12 +68,11 @@ def _not_shown(evidence: Evidence) -> list[Several]:
         return []
     keys = [keys_of(scene)[n] for n in gone]
     named = Counter(name for name, _ in keys)
-    words = ", ".join(f"'{name}'" + f" ({n})" * (n > 1) for name, n in named.most_common(NAMED))
-    more = f", and {len(named) - NAMED} more" if len(named) > NAMED else ""
-    return [Several(frozenset(keys), words=words + more)]
+    words = [f"'{name}'" + f" ({n})" * (n > 1) for name, n in named.most_common()]
+    return [Several(frozenset(keys), words=listed(words, NAMED))]
 
 
-def _a_pixel_to_the_right(case: Case, frame: Frame) -> Numbers | None:
+def _a_pixel_to_the_right(case: Case, frame: Frame) -> Posed | None:
     """Pick the object visible in the most pixels, moved by a pixel to the right."""
     seen = seen_instances(case, frame)
     if not seen:
@@ -81,7 +81,7 @@ def _a_pixel_to_the_right(case: Case, frame: Frame) -> Numbers | None:
     depth = float(np.median(frame.t[frame.instance_index == seen[0]]))
     move = pixel_size(camera)[0] * camera.projection.scale(depth) * camera.right
     name = case.scene.objects[case.scene.instances[seen[0]].object]
-    return Numbers(values_of(move), object=name)
+    return Posed(values_of(move), object=name)
 
 
 def _whole(instance: Instance, factor: float) -> Instance:

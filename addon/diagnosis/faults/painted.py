@@ -13,6 +13,7 @@ from ...pictures.curves import FITTED_SHARE
 from ...scene import Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import at_once
+from ...wording import listed
 from ..evidence import NEAR, Evidence
 from .fault import Key, Numbers, Values, keys_of
 from .processed import shades_apart
@@ -108,8 +109,7 @@ def exchanged(evidence: Evidence) -> list[Painted]:
     if apart.min(axis=1).max() > NEAR or len(set(other)) < len(other):
         return []
     pairs = [f"'{a}' that of '{names[b]}'" for a, b in zip(names, other, strict=True)]
-    more = f", and {len(pairs) - NAMED} more" if len(pairs) > NAMED else ""
-    return [_repainted(scene, found, found.traced[other], ", ".join(pairs[:NAMED]) + more)]
+    return [_repainted(scene, found, found.traced[other], listed(pairs, NAMED))]
 
 
 def _colors(evidence: Evidence) -> Surfaces | None:

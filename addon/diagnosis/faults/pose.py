@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -33,7 +33,7 @@ CLEAR = 0.9  # of the edges: where one explains as many, what explains fewer com
 class Posed(Numbers):
     """An object that is changed in some way."""
 
-    change: Change = field(kw_only=True)
+    change: Change = MOVED[0]
 
     @classmethod
     def of(cls, found: Numbers, looked: Looked, change: Change) -> Posed:
@@ -63,16 +63,16 @@ def _far(looked: Looked, changes: Sequence[Change]) -> Work[Starts]:
 
     One that is hardly better than no change is none.
     """
-    out: list[tuple[int, float, int, Change, Values]] = []
+    out: list[tuple[int, float, Change, Values]] = []
     for change in changes:
         search = change.search(looked)
         least = PROMISING * (yield from search.count(change.none))
         for start in change.starts(looked):
             right = yield from search.count(start)
             size = float(np.abs(np.subtract(start, change.none)).sum())
-            out += [(-right, size, len(out), change, start)] if right >= least else []
+            out += [(-right, size, change, start)] if right >= least else []
     starts: Starts = {}
-    for *_, change, start in sorted(out, key=lambda one: one[:3])[:KEPT]:
+    for *_, change, start in sorted(out, key=lambda one: one[:2])[:KEPT]:
         starts.setdefault(change, []).append(start)
     return starts
 
@@ -133,61 +133,51 @@ def _changed(evidence: Evidence) -> Work[None]:
                 break
 
 
-@dataclass(frozen=True)
-class Posing:
-    """How some changes are made, and fitted to each suspect."""
+def posing(*changes: Change, exact: Values = (), kept: bool = False) -> dict[str, Any]:
+    """Return how some changes of a suspect are made, found and refined, as fields of a fault.
 
-    changes: tuple[Change, ...]  # a guess says which of them it is; one that does not is the first
-    exact: Values  # numbers of the first that are guessed, too
-    kept: bool  # whether a second copy of the object is changed
+    `exact` numbers of the first are guessed, too. If it is `kept`, a second copy is changed.
+    """
 
-    def assume(self, case: Case, guess: Numbers) -> Case | None:
-        """Return the case with an object changed; None if it has none of that name."""
+    def assume(case: Case, guess: Posed) -> Case | None:
         if not instances_named(case.scene, guess.object):
             return None
 
         def made(scene: Scene) -> Scene:
-            other = self._change_of(guess).of(scene, guess.object, guess.values)
+            other = guess.change.of(scene, guess.object, guess.values)
             own = [scene.instances[n] for n in instances_named(scene, guess.object)]
-            return replace(other, instances=(*other.instances, *own)) if self.kept else other
+            return replace(other, instances=(*other.instances, *own)) if kept else other
 
         return case.with_scenes(made)
 
-    def refine(self, evidence: Evidence, guess: Numbers) -> Work[Numbers | None]:
+    def refine(evidence: Evidence, guess: Posed) -> Work[Posed | None]:
         """Return the numbers found near a guess; with their ranges if it was fitted before."""
-        looked = yield from Looked.of(evidence, guess.object, self.kept)
+        looked = yield from Looked.of(evidence, guess.object, kept)
         if looked is None:
             return None
-        change, fine = self._change_of(guess), bool(guess.low)
+        change, fine = guess.change, bool(guess.low)
         starts, step = [guess.values], FINER if fine else 1.0
         found = yield from change.search(looked).guess(starts, step, enclose=fine)
         return Posed.of(found, looked, change) if found else None
 
-    def find(self, evidence: Evidence) -> Work[list[Numbers]]:
-        """Guess how each suspect is changed."""
-        first = self.changes[0]
-        out: list[Numbers] = [
+    def find(evidence: Evidence) -> Work[list[Posed]]:
+        with suppress(SearchEndedError):
+            yield from _changed(evidence)
+        first, found = changes[0], evidence.known["changed"]
+        out = [
             Posed((v,), object=name, words=first.words(v), change=first)
             for name in evidence.suspects
-            for v in self.exact
+            for v in exact
         ]
-        if not self.kept:
-            with suppress(SearchEndedError):
-                yield from _changed(evidence)
-            found: list[Posed] = evidence.known["changed"]
-            return [*out, *(guess for guess in found if guess.change in self.changes)]
+        return [*out, *(guess for guess in found if guess.change in changes)]
+
+    def find_copies(evidence: Evidence) -> Work[list[Posed]]:
+        out: list[Posed] = []
         for name in evidence.suspects[:TRIED]:
-            if looked := (yield from Looked.of(evidence, name, kept=True)):
-                for starts in (yield from _far(looked, self.changes)).values():
-                    guess, _ = yield from _climbed(looked, first, starts, FIRST * looked.width)
+            if looked := (yield from Looked.of(evidence, name, kept)):
+                for change, starts in (yield from _far(looked, changes)).items():
+                    guess, _ = yield from _climbed(looked, change, starts, FIRST * looked.width)
                     out += [guess] if guess else []
         return out
 
-    def _change_of(self, guess: Numbers) -> Change:
-        return guess.change if isinstance(guess, Posed) else self.changes[0]
-
-
-def posing(*changes: Change, exact: Values = (), kept: bool = False) -> dict[str, Any]:
-    """Return a :class:`Posing` as fields of a fault."""
-    own = Posing(changes, exact, kept)
-    return {"assume": own.assume, "find": own.find, "refine": own.refine}
+    return {"assume": assume, "find": find_copies if kept else find, "refine": refine}

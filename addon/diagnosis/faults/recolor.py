@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Array, by_runs
 from ...causes.case import Case
-from ...pictures.picture import Transform, straight
+from ...pictures.picture import straight
 from .fault import Guess, Make
 
 
@@ -43,8 +43,3 @@ def recolored(of_pixels: Callable[[Array], Array]) -> Make[Guess]:
         return case if picture.background is None else case.before(change(picture.background))
 
     return make
-
-
-def by_curve(case: Case, of: Transform) -> Case:
-    """Return the case with a transform of the traced colours."""
-    return replace(case, picture=replace(case.picture, transform=of))

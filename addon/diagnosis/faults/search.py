@@ -8,6 +8,7 @@ finds how far each number goes by itself with as many right pixels.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -36,45 +37,20 @@ LIKELY = 0.75  # of the right pixels: where as many are right with one number, i
 DIGITS = range(-1, 6)  # digits of a number beyond those that its range fixes
 
 
+@dataclass(eq=False)
 class Search:
-    """A search among the numbers of one fault; each place is evaluated once.
+    """A search among the numbers of one fault; each place is evaluated once."""
 
-    Parameters
-    ----------
-    right : callable
-        Which of n pixels are right with m numbers.
-    axes : (m, k) or (m,) float
-        What a unit, about a pixel, along each of k axes adds to the numbers; or of each alone.
-    finest : float
-        Units: the last step.
-    least : float
-        Right pixels after large steps, for smaller ones to be worth while.
-    unseen : (m, j) float, optional
-        Further axes, along which nothing changes: they are not searched.
-    moves : float
-        With steps of one length, at most.
-    """
-
-    def __init__(
-        self,
-        right: Right,
-        axes: Sequence[float] | Floats,
-        finest: float = FINEST,
-        least: float = 0,
-        unseen: Floats | None = None,
-        moves: float = np.inf,
-    ) -> None:
-        axes = np.asarray(axes, np.float64)
-        self._right = right
-        self.axes = np.diag(axes) if axes.ndim == 1 else axes
-        self.unseen = np.zeros((len(self.axes), 0)) if unseen is None else unseen
-        self.finest = finest
-        self.least = least
-        self.moves = moves
-        self._known: dict[Values, int] = {}
+    right: Right
+    axes: Floats  # (m, k) what a unit, about a pixel, along each of k axes adds to the m numbers
+    finest: float = FINEST  # units: the last step
+    least: float = 0  # right pixels after large steps, for smaller ones to be worth while
+    unseen: Floats | None = None  # (m, j) axes along which nothing changes: they are not searched
+    moves: float = np.inf  # with steps of one length, at most
+    known: dict[Values, int] = field(default_factory=dict)  # how many pixels are right
 
     def guess(
-        self, starts: Sequence[Values], step: float = 1.0, name: str = "", enclose: bool = True
+        self, starts: Sequence[Values], step: float = 1.0, enclose: bool = True
     ) -> Work[Numbers | None]:
         """Return the best numbers near some starts, with their ranges; steps are in units.
 
@@ -94,22 +70,21 @@ class Search:
         if len(best) > 1:
             best, right = yield from self._one_alone(best, right, last)
         if not enclose:
-            return Numbers(best, best, best, object=name)
+            return Numbers(best, best, best)
         places = yield from self._region(np.array(best), right)
         # Along what is unseen a range may be very long: its middle says nothing.
         told = yield from self._rounded(best, places[: 1 + 2 * len(best)], right)
         places = np.array([told, *places])
         beyond = self.finest * np.abs(self.axes).sum(axis=1)
         low, high = places.min(axis=0) - beyond, places.max(axis=0) + beyond
-        return Numbers(told, values_of(low), values_of(high), object=name)
+        return Numbers(told, values_of(low), values_of(high))
 
     def _one_alone(self, best: Values, right: int, last: float) -> Work[tuple[Values, int]]:
         """Return a place as good where all numbers but one are 0; else the best place."""
         numbers, units = np.array(best), np.linalg.pinv(self.axes)
         for axis, one in zip(np.eye(len(best)), units.T, strict=True):
             size = max(float(np.linalg.norm(one)), LEAST_UNITS)
-            alone = Search(self._right, axis[:, None] / size)
-            alone._known = self._known
+            alone = replace(self, axes=axis[:, None] / size, moves=np.inf)
             place = values_of(axis * (one / size**2 @ units @ numbers))
             if (yield from self.count(place)) >= LIKELY * right:
                 there, found = yield from alone.climbed(place, COARSE, last)
@@ -123,8 +98,9 @@ class Search:
         So does what is unseen, of all numbers together.
         """
         alone = np.diag(np.abs(self.axes).max(axis=1))
+        unseen = np.zeros((len(best), 0)) if self.unseen is None else self.unseen
         places = [best]
-        for along in np.hstack((alone, -alone, self.unseen, -self.unseen)).T:
+        for along in np.hstack((alone, -alone, unseen, -unseen)).T:
             places.append((yield from self._end(best, along, right)))
         return np.array(places)
 
@@ -170,10 +146,10 @@ class Search:
 
     def count(self, values: Values) -> Work[int]:
         """Return how many pixels are right with these numbers; -1 if they are impossible."""
-        if values not in self._known:
-            found = yield from self._right(values)
-            self._known[values] = -1 if found is None else int(np.count_nonzero(found))
-        return self._known[values]
+        if values not in self.known:
+            found = yield from self.right(values)
+            self.known[values] = -1 if found is None else int(np.count_nonzero(found))
+        return self.known[values]
 
     def _places(self, values: Values, step: float) -> list[Values]:
         """Return the neighbours of a place, a step away."""

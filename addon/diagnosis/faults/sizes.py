@@ -113,19 +113,12 @@ def _mix(have: int, size: int, way: Way) -> Mix:
     return [*zip(pixels.clip(0, have - 1), weights / weights.sum(axis=0), strict=True)]
 
 
-At = tuple[Places, Places]  # rows and columns
+At = tuple[Places, ...]  # rows and columns
 
 
-def _everywhere(shape: tuple[int, ...]) -> At:
-    rows, columns = np.ogrid[: shape[0], : shape[1]]
-    return rows, columns
-
-
-def resized(
-    colors: Array, shape: tuple[int, ...], way: Way = Way.LINEAR, at: At | None = None
-) -> Array:
-    """Resample a picture (h', w', 4) to another size (h, w); return all pixels, or some."""
-    rows, columns = at or _everywhere(shape)
+def resized(colors: Array, shape: tuple[int, ...], way: Way, at: At) -> Array:
+    """Resample a picture (h', w', 4) to another size (h, w); return some pixels."""
+    rows, columns = at
     ups, acrosses = (_mix(*sizes, way) for sizes in zip(colors.shape[:2], shape[:2], strict=True))
     parts = (
         (up[rows] * across[columns])[..., None] * colors[y[rows], x[columns]]
@@ -190,7 +183,8 @@ def _enlarged(colors: Colors, guess: Small, evidence: Evidence) -> Colors:
     """Enlarge a picture to the evidence's size; shrink it before, unless it was rendered small."""
     shape, coded = evidence.unexplained.shape, guess.coding.into(colors)
     small = _shrunk(coded, guess) if guess.down else coded
-    return _recoded(coded, _grown(small, guess, shape, _everywhere(shape)), guess)
+    everywhere = tuple(np.ogrid[: shape[0], : shape[1]])
+    return _recoded(coded, _grown(small, guess, shape, everywhere), guess)
 
 
 def _recoded(coded: Array, large: Array, guess: Small) -> Colors:

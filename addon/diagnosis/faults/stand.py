@@ -67,17 +67,16 @@ def _seen(evidence: Evidence) -> Floats:
     return _metres(evidence)[:, : 2 if parallel else 3]
 
 
-def _unseen(evidence: Evidence) -> Floats | None:
+def _unseen(evidence: Evidence) -> Floats:
     """Return the moves that do not."""
-    seen = _seen(evidence).shape[1]
-    return _metres(evidence)[:, seen:] if seen < 3 else None
+    return _metres(evidence)[:, _seen(evidence).shape[1] :]
 
 
-def _degrees(evidence: Evidence) -> Values:
-    """Return the turns right, up, roll that shift the picture by a pixel, in degrees."""
+def _degrees(evidence: Evidence) -> Floats:
+    """Return the turns right, up, roll that shift the picture by a pixel, (3, 3) degrees."""
     camera, depth = evidence.case.scene.camera, _depth(evidence)
     width, height = (v * camera.projection.scale(depth) / depth for v in pixel_size(camera))
-    return tuple(float(np.degrees(v)) for v in (width, height, 1 / radius(evidence)))
+    return np.diag(np.degrees((width, height, 1 / radius(evidence))))
 
 
 def _in_the_world(camera: Camera, *metres: float) -> str:
@@ -106,7 +105,7 @@ def _six(evidence: Evidence) -> Floats:
     seen = _seen(evidence)
     out = np.zeros((6, seen.shape[1] + 3))
     out[:3, : seen.shape[1]] = seen
-    out[3:, seen.shape[1] :] = np.diag(_degrees(evidence))
+    out[3:, seen.shape[1] :] = _degrees(evidence)
     return out
 
 
@@ -131,4 +130,4 @@ def _rolls(evidence: Evidence) -> Iterator[Values]:
 MOVED = Family(moved, _seen, _in_the_world, worth=WORTH, unseen=_unseen)
 TURNED = Family(turned, _degrees, _in_degrees, worth=WORTH)
 PLACED = Family(placed, _six, _placed_words, worth=WORTH)
-ROLL = Family(_rolled, lambda evidence: (float(np.degrees(1 / radius(evidence))),), starts=_rolls)
+ROLL = Family(_rolled, lambda evidence: np.degrees(np.eye(1) / radius(evidence)), starts=_rolls)

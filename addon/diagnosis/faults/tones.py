@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -14,11 +15,10 @@ from ...pictures.curves import ADVICE, FITTED_SHARE, KEYS, ROUNDED, ROUNDED_ONCE
 from ...pictures.picture import Curve
 from ...tracer.progress import Work
 from ..evidence import Evidence
-from .fault import Example, Fault, Find, Guess, Make
-from .recolor import by_curve, recolored
+from .fault import Example, Fault, Guess
+from .recolor import recolored
 from .surfaces import agree, inside, surfaces
 
-_BGRA = [2, 1, 0, 3]
 _WHY = {  # for each of `KEYS`, why it happens, and who has seen it
     "channels": (
         "OpenCV and BMP files have blue first, most others red.",
@@ -75,12 +75,11 @@ def _gamma(color: Array) -> Array:
 
 def _curve_of(evidence: Evidence) -> Work[Curve | None]:
     """Return the transform that makes most unexplained surfaces agree (cached)."""
-    picture = evidence.picture
-    if "curve" not in evidence.known and picture.transform is None and not picture.lit:
-        more = evidence.case.curves or ()
-        found = yield from find_transform(evidence.frame, picture, inside(evidence), more)
-        evidence.known["curve"] = found
-    return evidence.known.get("curve")
+    picture, more = evidence.picture, evidence.case.curves or ()
+    if picture.transform is not None or picture.lit:
+        return None
+    finding = find_transform(evidence.frame, picture, inside(evidence), more)
+    return (yield from evidence.done_once("curve", finding))
 
 
 def _rounded(evidence: Evidence) -> Sequence[Curve]:
@@ -108,17 +107,13 @@ class OfCurve(Guess):
 
 
 def _through(case: Case, guess: OfCurve) -> Case:
-    return by_curve(case, guess.curve.of)
+    return replace(case, picture=replace(case.picture, transform=guess.curve.of))
 
 
-def _find_curve(key: str) -> Find[OfCurve]:
-    def find(evidence: Evidence) -> Work[list[OfCurve]]:
-        best = yield from _curve_of(evidence)
-        rounded = evidence.once("rounded", lambda: _rounded(evidence))
-        found = (*([best] if best else []), *rounded)
-        return [OfCurve(c, words=c.name) for c in found if c.key == key]
-
-    return find
+def _find_curve(key: str, evidence: Evidence) -> Work[list[OfCurve]]:
+    best = yield from _curve_of(evidence)
+    rounded = evidence.once("rounded", lambda: _rounded(evidence))
+    return [OfCurve(c, words=c.name) for c in (best, *rounded) if c and c.key == key]
 
 
 def _colors(key: str) -> Fault[OfCurve]:
@@ -129,22 +124,15 @@ def _colors(key: str) -> Fault[OfCurve]:
         why,
         ADVICE,
         _through,
-        _find_curve(key),
-        examples=EXAMPLES.get(key, ()),
+        partial(_find_curve, key),
+        examples=tuple(example for example in _EXAMPLES if example.name == key),
         words=KEYS[key],
         witness=witness,
     )
 
 
-def _example(name: str, text: str, make: Make[Guess]) -> tuple[Example, ...]:
-    return (Example(name, text, make=make),)
-
-
-EXAMPLES = {
-    "gamma": _example("gamma", "a gamma of 2.2 applied to the picture", recolored(_gamma)),
-    "channels": _example(
-        "channels", "red and blue swapped", recolored(lambda color: color[..., _BGRA])
-    ),
-}
-
+_EXAMPLES = (
+    Example("gamma", "a gamma of 2.2 applied to the picture", make=recolored(_gamma)),
+    Example("channels", "red and blue swapped", make=recolored(lambda c: c[..., [2, 1, 0, 3]])),
+)
 CURVE_FAULTS = (*map(_colors, KEYS),)

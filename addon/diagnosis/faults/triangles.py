@@ -26,10 +26,6 @@ def with_triangles(mesh: Mesh, left: Bools | slice, corners: slice = slice(None)
     return replace(mesh, triangles=triangles, slots=mesh.slots[left], corner_colors=colors)
 
 
-def _flipped(mesh: Mesh) -> Mesh:
-    return with_triangles(mesh, slice(None), slice(None, None, -1))
-
-
 def _other_diagonal(mesh: Mesh) -> Mesh:
     """Cut every quad along its other diagonal: (a, b, c) and (a, c, d), one after the other."""
     triangles = mesh.triangles.copy()
@@ -176,7 +172,7 @@ TRIANGLE_FAULTS: tuple[AnyFault, ...] = (
         "A negative scale, or a change between right- and left-handed coordinates, reverses "
         "the order of the corners.",
         "keep the order of each triangle's corners",
-        of_meshes(_flipped),
+        of_meshes(lambda mesh: with_triangles(mesh, slice(None), slice(None, None, -1))),
         examples=(Example("flipped_winding", "all normals turned over"),),
         witness="ComputationalBiomechanicsLab/opensim-creator#318",
     ),

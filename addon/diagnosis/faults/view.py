@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -39,26 +40,17 @@ def _halfway(case: Case, frame: Frame) -> Numbers | None:
     return Numbers((float(np.min(t) + np.max(t)) / 2,))
 
 
-def _find_start(evidence: Evidence) -> Work[list[Numbers]]:
-    """Guess the clip start with the most right pixels, and none."""
-    own = evidence.case.scene.camera.clip_start
-    return (yield from _found(evidence, _start, own / FAR if own > 0 else own, -1.0))
-
-
-def _find_end(evidence: Evidence) -> Work[list[Numbers]]:
-    """Guess the clip end with the most right pixels, and none."""
-    return (yield from _found(evidence, _end, evidence.case.scene.camera.clip_end * FAR, 1.0))
-
-
 def _found(
-    evidence: Evidence, changed: Callable[[Camera, float], Camera | None], none: float, sign: float
+    changed: Callable[[Camera, float], Camera | None], sign: float, evidence: Evidence
 ) -> Work[list[Numbers]]:
-    """Guess the best depth near those that separate unexplained pixels from the others, and none.
+    """Guess the clip start (sign -1) or end (1) with the most right pixels, and none.
 
-    With the depth `none`, nothing is clipped.
+    It is the best depth near those that separate unexplained pixels from the others.
     """
-    out = [Numbers((none,), words=LEFT_OUT)]
     camera = evidence.case.scene.camera
+    own = camera.clip_end if sign > 0 else camera.clip_start
+    none = own * FAR**sign if own > 0 else own  # with this depth, nothing is clipped
+    out = [Numbers((none,), words=LEFT_OUT)]
     widest = changed(camera, none)
     t = evidence.frame.t[np.isfinite(evidence.frame.t)]
     if widest is None or not len(t) or not np.ptp(t):
@@ -80,7 +72,7 @@ def _found(
         found = yield from right(depth)
         if found is not None and found.sum() >= evidence.least_right():
             starts.append(depth)
-    search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right())
+    search = Search(right, np.eye(1) * np.ptp(t) / STEPS, least=evidence.least_right())
     if starts and (guess := (yield from search.guess(starts))):
         beyond = "nearer" if sign < 0 else "farther"
         words = f"at {guess.values[0]:.4g} m: what is {beyond} is not shown"
@@ -107,7 +99,7 @@ VIEW_FAULTS = (
         "Many ray tracers have no clip start, or one of their own, or the exporter leaves it out.",
         "take the camera's own clip start; it is a depth along the view axis",
         of_camera(_start),
-        _find_start,
+        partial(_found, _start, -1.0),
         ("start",),
         examples=(Example("clip_start", "the clip start halfway into the scene", _halfway),),
         words="at another depth, or left out",
@@ -119,7 +111,7 @@ VIEW_FAULTS = (
         "Many ray tracers have no clip end; a large scene may reach beyond a rasteriser's default.",
         "take the camera's own clip end; it is a depth along the view axis",
         of_camera(_end),
-        _find_end,
+        partial(_found, _end, 1.0),
         ("end",),
         words="at another depth, or left out",
         witness="RenderKit/ospray#118",

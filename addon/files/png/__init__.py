@@ -78,9 +78,8 @@ def header_of(content: bytes) -> Header:
     if kind != b"IHDR" or len(body) != 13:
         raise PngError("its header is damaged")
     width, height, depth, color, packed, filtered, interlaced = struct.unpack(">2I5B", body)
-    if not (width and height) or depth not in _DEPTHS.get(color, (8, 16)):
-        raise PngError("its header is damaged")
-    if color not in CHANNELS or packed or filtered or interlaced > 1:
+    is_known = color in CHANNELS and depth in _DEPTHS.get(color, (8, 16))
+    if not (width and height and is_known) or packed or filtered or interlaced > 1:
         raise PngError("its header is damaged")
     return Header(width, height, depth, color, bool(interlaced))
 

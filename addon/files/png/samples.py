@@ -58,16 +58,16 @@ def unpacked(header: Header, packed: bytes) -> Array:
     """Return the samples of all pixels, (h, w, c) as they are stored (8, 9, 10)."""
     passes = _ADAM7 if header.interlaced else ((0, 0, 1, 1),)
     sizes = [
-        (-(-(header.width - x) // dx), -(-(header.height - y) // dy)) for x, y, dx, dy in passes
+        (len(range(x, header.width, dx)), len(range(y, header.height, dy)))
+        for x, y, dx, dy in passes
     ]
-    sizes = [size if min(size) > 0 else (0, 0) for size in sizes]
-    whole = sum(height * (1 + header.line(width)) for width, height in sizes)
+    whole = sum(height * (1 + header.line(width)) for width, height in sizes if width)
     data = _inflated(packed, whole)
     shape = header.height, header.width, CHANNELS[header.kind]
     out = np.zeros(shape, np.uint16 if header.depth == 16 else np.uint8)
     at = 0
     for (x, y, dx, dy), (width, height) in zip(passes, sizes, strict=True):
-        if height:
+        if width and height:
             rows = np.frombuffer(data, np.uint8, height * (1 + header.line(width)), at)
             at += rows.size
             lines = _unfiltered(rows.reshape(height, -1), max(header.bits // 8, 1))

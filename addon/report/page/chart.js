@@ -159,7 +159,6 @@ function ticksOf({ low, high, kind, named, least }) {
   const begin = least ?? low;
   const round = {
     named: () => [],
-    linear: () => steps125(begin, high, 8),
     integers: () => steps125(begin, high, 8).filter(Number.isInteger),
     log: () => logarithmic(begin, high),
   }[kind]();

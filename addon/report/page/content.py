@@ -6,7 +6,7 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from types import ModuleType
 from typing import TypeVar
 
@@ -21,7 +21,7 @@ from ...comparison.put_right import pictures_put_right
 from ...derivation.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...diagnosis.regions import Region, regions, sides
 from ...files import png
-from ...files.images import data_uri, to_display
+from ...files.images import data_uri, hex_color, to_display
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report
@@ -94,7 +94,7 @@ def _causes(comparison: Comparison) -> list[dict[str, object]]:
             "sentence": cause.sentence,
             "unit": cause.unit,
             "pixels": count[cause.key],
-            "color": None if cause.color is None else hex_color(cause.color),
+            "color": None if cause.color is None else hex_color((*cause.color, 1.0)),
         }
         for cause in CAUSES
     ]
@@ -102,12 +102,6 @@ def _causes(comparison: Comparison) -> list[dict[str, object]]:
 
 def _words(name: str) -> str:
     return name.replace("_", " ").capitalize()
-
-
-def hex_color(linear: Sequence[float]) -> str:
-    """Return a linear RGB as #rrggbb of sRGB."""
-    r, g, b, _ = to_display(np.array([[[*linear, 1.0]]]))[0, 0]
-    return f"#{r:02x}{g:02x}{b:02x}"
 
 
 def _pictures(

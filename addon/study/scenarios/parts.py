@@ -6,6 +6,8 @@ tracer stores them (`sheet`).
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,6 +27,7 @@ TURNED_39 = np.array([[13.0, -34.0, -14.0], [26.0, 19.0, -22.0], [26.0, -2.0, 29
 TURNED = TURNED_39 / 39
 
 COLORS = ((0.85, 0.45, 0.15, 1.0), (0.2, 0.5, 0.8, 1.0), (0.5, 0.75, 0.3, 1.0))
+NEAR = 4.0  # where a sheet begins, in depth
 MARGIN = 2  # lattice cells that a sheet reaches beyond the picture
 # Of a pixel: a lattice that is moved by this has no corner, edge or diagonal on a pixel's ray.
 BESIDE = (0.37, 0.19)
@@ -56,14 +59,13 @@ def camera(
 def sheet(
     view: Camera,
     step: int = 2,
-    near: float = 4.0,
     far: float = 5.0,
     beside: tuple[float, float] = (0.0, 0.0),
     around: bool = True,
 ) -> Mesh:
     """Return a rough surface before a camera, with a corner on the ray of every `step`-th pixel.
 
-    The corners are fl(o + t d), with t at random between `near` and `far`. As a straight line is
+    The corners are fl(o + t d), with t at random between NEAR and `far`. As a straight line is
     straight in a picture, the pixels between meet the edges; with a step of 2, all of them do.
     `beside` is how far the corners are from the rays, in pixels. The surface reaches beyond the
     picture. A fan behind a perspective camera closes it (`around`), so that a ray crosses it once.
@@ -76,10 +78,10 @@ def sheet(
     x, y = (v.ravel() for v in np.meshgrid(px, py))
     rays = camera_rays(view, x, y)
     rng = generator()
-    t = near * (far / near) ** rng.random(len(x))
-    points = np.broadcast_to(rays.at(t), (3, len(x))).T
+    t = NEAR * (far / NEAR) ** rng.random(len(x))
+    points = rays.at(t).T
     triangles = lattice(columns, rows, rng.integers(0, 2, columns * rows))
-    behind = view.origin - 2 * near * view.forward if around else None
+    behind = view.origin - 2 * NEAR * view.forward if around else None
     return closed(points, triangles, lattice_rim(columns, rows), behind)
 
 
@@ -100,9 +102,8 @@ def lattice(columns: int, rows: int, split: Index | int = 0) -> Corners:
     j, i = (v.ravel() for v in np.meshgrid(np.arange(columns), np.arange(rows)))
     a = i * (columns + 1) + j
     b, c, d = a + 1, a + columns + 2, a + columns + 1
-    other = np.broadcast_to(split, a.shape).astype(bool)
-    first = np.where(other, (a, b, d), (a, b, c))
-    second = np.where(other, (b, c, d), (a, c, d))
+    first = np.where(split, (a, b, d), (a, b, c))
+    second = np.where(split, (b, c, d), (a, c, d))
     return np.stack((first.T, second.T), axis=1).reshape(-1, 3).astype(np.int32)
 
 
@@ -116,20 +117,17 @@ def sphere(radius: float = 2.0, rings: int = 12) -> Mesh:
     """Return a closed sphere about the origin, 4 rings (rings - 1) triangles, as Embree's test."""
     theta = np.pi * np.arange(1, rings) / rings
     phi = np.pi * np.arange(2 * rings) / rings
-    ring = np.stack(np.broadcast_arrays(np.cos(phi), np.sin(phi)), axis=-1)
+    ring = np.stack((np.cos(phi), np.sin(phi)), axis=-1)
     points = [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
     points += [(*(np.sin(a) * xy), np.cos(a)) for a in theta for xy in ring]
-    count = 2 * rings
-    k = np.arange(count)
-    after = (k + 1) % count
-    triangles = [np.stack((np.zeros_like(k), 2 + k, 2 + after), axis=1)]
-    for r in range(rings - 2):
-        a, b = 2 + r * count, 2 + (r + 1) * count
-        triangles.append(np.stack((a + k, b + k, b + after), axis=1))
-        triangles.append(np.stack((a + k, b + after, a + after), axis=1))
-    last = 2 + (rings - 2) * count
-    triangles.append(np.stack((last + k, np.ones_like(k), last + after), axis=1))
-    return Mesh(radius * np.array(points), np.concatenate(triangles), name="Sphere")
+    k = np.arange(2 * rings, dtype=np.int32)
+    after = np.roll(k, -1)
+    first = range(2, len(points), len(k))  # of each ring
+    triangles = [(0 * k, 2 + k, 2 + after)]
+    for a, b in pairwise(first):
+        triangles += (a + k, b + k, b + after), (a + k, b + after, a + after)
+    triangles.append((first[-1] + k, 0 * k + 1, first[-1] + after))
+    return Mesh(radius * np.array(points), np.hstack(triangles).T, name="Sphere")
 
 
 def grid(

@@ -47,7 +47,7 @@ def closed_fan(count: float, width: int, height: int) -> Scene:
     rays = camera_rays(view, x + width // 2 + 0.5, y + height // 2 + 0.5)
     points = rays.at(4 + generator().random(len(x))).T
     around = np.arange(1, len(x))
-    triangles = np.stack((np.zeros_like(around), around, np.roll(around, -1)), axis=1)
+    triangles = np.stack((0 * around, around, np.roll(around, -1)), axis=1)
     return scene(view, parts.closed(points, triangles, around, EYE - 8 * FORWARD))
 
 
@@ -104,18 +104,16 @@ def integer_cube_ortho(cells: float, width: int, height: int) -> Scene:
 
 def _cube(cells: int, least: Floats, side: float) -> Mesh:
     """Return a cube of six lattices, each with corners of its own."""
-    points: list[Floats] = []
-    triangles: list[parts.Corners] = []
+    walls: list[Mesh] = []
     rng = generator()
     for axis in range(3):
-        u, v = side * np.roll(np.eye(3), axis, axis=1)[1:]
-        for far in (0.0, side):
-            corner = least + far * np.roll(np.eye(3), axis, axis=1)[0]
-            wall = grid(cells, cells, corner, u, v, rng.integers(0, 2, cells * cells))
-            first = np.int32(len(wall.vertices) * len(points))
-            triangles.append(wall.triangles + first)
-            points.append(wall.vertices)
-    return Mesh(np.concatenate(points), np.concatenate(triangles), name="Cube")
+        across, u, v = side * np.roll(np.eye(3), axis, axis=1)
+        for corner in (least, least + across):
+            walls.append(grid(cells, cells, corner, u, v, rng.integers(0, 2, cells * cells)))
+    points = np.concatenate([wall.vertices for wall in walls])
+    each = (cells + 1) ** 2
+    triangles = np.concatenate([wall.triangles + k * each for k, wall in enumerate(walls)])
+    return Mesh(points, triangles, name="Cube")
 
 
 def degenerate_faces(copies: float, width: int, height: int) -> Scene:
@@ -131,9 +129,9 @@ def degenerate_faces(copies: float, width: int, height: int) -> Scene:
     meshes = [Mesh(points, parts.lattice(columns, rows, split), name="Wall")]
     if copies:
         rim = parts.lattice_rim(columns, rows)[:columns]
-        line = (rim[:-2, None] + np.arange(rows)[None] * (columns + 1)).ravel()
-        empty = np.stack((line, line + 1, line + 2), axis=1)  # three corners in a row
-        point = np.stack((line, line + 1, line), axis=1)
+        line = np.add.outer(rim[:-2], np.arange(rows) * (columns + 1)).ravel()
+        empty = np.add.outer(line, (0, 1, 2))  # three corners in a row
+        point = np.add.outer(line, (0, 1, 0))
         again = np.tile(parts.lattice(columns, rows, 1 - split), (copies, 1))
         meshes.append(Mesh(points, np.concatenate((empty, again, point)), name="Copies"))
     # Not symmetrical: no pixel's ray is on a diagonal.
@@ -227,6 +225,5 @@ def stored_float32(offset: float, width: int, height: int) -> Scene:
     """
     centre = offset * AWAY
     view, ball = camera(width, height, 0.5, eye=6 * BACKWARD), sphere()
-    points = (ball.vertices + centre).astype(np.float32)
-    mesh = Mesh(points, ball.triangles, name="Sphere")
-    return scene(view, mesh, matrix=parts.placed(np.eye(3), -centre))
+    stored = replace(ball, vertices=(ball.vertices + centre).astype(np.float32))
+    return scene(view, stored, matrix=parts.placed(np.eye(3), -centre))

@@ -1,6 +1,7 @@
 """Renders a scene of the kit with Embree: python embreex_obj.py scene.obj camera.json out.png."""
 
 import json
+import re
 import sys
 from itertools import pairwise
 from pathlib import Path
@@ -14,14 +15,10 @@ from PIL import Image
 
 def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return vertices (v, 3), triangles (n, 3), and linear RGB of each triangle (n, 3)."""
-    colors, vertices, triangles, shown = {}, [], [], []
-    used = ""
-    for line in path.with_suffix(".mtl").read_text(encoding="utf-8").splitlines():
-        key, *rest = line.split()
-        if key == "newmtl":
-            used = rest[0]
-        elif key == "Kd":
-            colors[used] = [float(v) for v in rest]
+    materials = path.with_suffix(".mtl").read_text(encoding="utf-8")
+    of_name = r"newmtl (\S+)\nKd (\S+) (\S+) (\S+)"
+    colors = {name: [*map(float, rgb)] for name, *rgb in re.findall(of_name, materials)}
+    vertices, triangles, shown = [], [], []
     for line in path.read_text(encoding="utf-8").splitlines():
         key, *rest = line.split()
         if key == "v":
@@ -42,11 +39,11 @@ def rays(camera: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
     K, R, t = (np.array(camera[key]) for key in "KRt")
     u, v = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
     x, y = (u.ravel() - K[0, 2]) / K[0, 0], (v.ravel() - K[1, 2]) / K[1, 1]
-    one, zero = np.ones_like(x), np.zeros_like(x)
-    eye = -R.T @ t
+    eye = np.broadcast_to(-R.T @ t, (len(x), 3))
+    across = np.stack((x, y), axis=1) @ R[:2]
     if camera["projection"] == "orthographic":
-        return eye + np.stack((x, y, zero), axis=1) @ R, np.stack((zero, zero, one), axis=1) @ R
-    return np.broadcast_to(eye, (len(x), 3)), np.stack((x, y, one), axis=1) @ R
+        return eye + across, np.broadcast_to(R[2], eye.shape)
+    return eye, across + R[2]
 
 
 def main() -> None:

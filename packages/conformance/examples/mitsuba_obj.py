@@ -5,6 +5,7 @@ meshes, one for each material.
 """
 
 import json
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -19,13 +20,9 @@ mi.set_variant("scalar_rgb")
 
 def by_material(obj: Path, folder: Path) -> dict[str, list[float]]:
     """Write an .obj for each material; return their paths, with linear RGB."""
-    colors: dict[str, list[float]] = {}
-    for line in obj.with_suffix(".mtl").read_text(encoding="utf-8").splitlines():
-        key, *rest = line.split()
-        if key == "newmtl":
-            name = rest[0]
-        elif key == "Kd":
-            colors[name] = [float(v) for v in rest]
+    materials = obj.with_suffix(".mtl").read_text(encoding="utf-8")
+    of_name = r"newmtl (\S+)\nKd (\S+) (\S+) (\S+)"
+    colors = {name: [*map(float, rgb)] for name, *rgb in re.findall(of_name, materials)}
     vertices: list[str] = []
     faces: dict[str, list[str]] = {name: [] for name in colors}
     for line in obj.read_text(encoding="utf-8").splitlines():

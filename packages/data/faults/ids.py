@@ -13,6 +13,7 @@ from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.diagnosis.faults.fault import Fault, Guess
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import at_once
+from reference_tracer.wording import listed
 
 from ..kind import Data, Turn
 from ..seen import Seen
@@ -62,9 +63,7 @@ def _shared(evidence: Evidence, data: Data) -> Iterator[Turned]:
     """Guess that each object has the id that most of its wrong pixels have."""
     own = _values(evidence, data, wrong=True)
     if own and not _is_exchange(evidence, data, own):
-        more = len(own) - _NAMED
-        words = ", ".join(f"'{name}'" for name in [*own][:_NAMED])
-        words += f" and {more} more" if more > 0 else ""
+        words = listed([f"'{name}'" for name in own], _NAMED)
         yield Turned(words=f"{words} {'have' if len(own) > 1 else 'has'}", turn=_turned(own))
 
 

@@ -8,13 +8,13 @@ registration: Chen and Medioni, "Object modelling by registration of multiple ra
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from reference_tracer.arrays import Floats, Places
 from reference_tracer.diagnosis.evidence import Evidence, spread
 from reference_tracer.diagnosis.faults.changes import MOVED
-from reference_tracer.diagnosis.faults.fault import Numbers, instances_named
+from reference_tracer.diagnosis.faults.fault import instances_named
+from reference_tracer.diagnosis.faults.looked import only
+from reference_tracer.diagnosis.faults.pose import Posed
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.progress import Work
@@ -33,7 +33,7 @@ _OWN = (1.0, 0.9, 0.75)
 _DONE = 2.0**-26  # metres, per metre of the points' distance: float32 knows no nearer place
 
 
-def by_points(evidence: Evidence) -> Work[list[Numbers]]:
+def by_points(evidence: Evidence) -> Work[list[Posed]]:
     """Guess where each object that is seen in unexplained pixels is, from their depths."""
     data = data_of(evidence)
     if data.kind.name not in KINDS:
@@ -48,7 +48,7 @@ def by_points(evidence: Evidence) -> Work[list[Numbers]]:
                 by = yield from _registered(evidence, data, name, at, share)
                 if by is not None:
                     values = tuple(np.round(by, 9).tolist())  # a nanometre
-                    out.append(Numbers(values, values, values, object=name))
+                    out.append(Posed(values, values, values, object=name))
     return out
 
 
@@ -59,9 +59,9 @@ def _registered(
     scene = evidence.case.scene
     rows, columns = np.divmod(at, evidence.unexplained.shape[1])
     film, values = data.at((rows, columns)).film, data.values[rows, columns, 0]
-    by = np.zeros(3)
+    own, by = only(scene, instances_named(scene, name)), np.zeros(3)
     for _ in range(_ROUNDS):
-        other = _alone(scene, name, by)
+        other = MOVED[0].of(own, name, tuple(by))
         hits = yield from evidence.trace(other, (rows, columns))
         step = _step(other, film, hits, values, data, share)
         if step is None:
@@ -70,14 +70,6 @@ def _registered(
         if np.abs(step).max() <= _DONE * np.median(np.abs(values)):
             break
     return by if by.any() else None
-
-
-def _alone(scene: Scene, name: str, by: Floats) -> Scene:
-    """Return the scene with an object moved, and nothing else in it."""
-    own = set(instances_named(scene, name))
-    kept = tuple(i for n, i in enumerate(scene.instances) if n in own)
-    alone = replace(scene, instances=kept, planes=())
-    return MOVED[0].of(alone, name, tuple(by))
 
 
 def _step(

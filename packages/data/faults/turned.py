@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
-from reference_tracer.diagnosis.faults.fault import Fault, Find, Numbers
+from reference_tracer.diagnosis.faults.fault import Fault, Numbers
 from reference_tracer.tracer.progress import at_once
 
 from ..kind import Data, Turn
@@ -40,17 +40,6 @@ def data_of(evidence: Evidence) -> Data:
     return picture_of(evidence.case).data
 
 
-def of_kinds(kinds: tuple[str, ...], guesses: Guesses) -> Find[Turned]:
-    """Return a function that finds guesses in data of some kinds, and none in others."""
-
-    @at_once
-    def find(evidence: Evidence) -> list[Turned]:
-        data = data_of(evidence)
-        return list(guesses(evidence, data)) if data.kind.name in kinds else []
-
-    return find
-
-
 def data_fault(
     name: str,
     kinds: tuple[str, ...],
@@ -63,7 +52,12 @@ def data_fault(
     witness: str = "",
 ) -> Fault[Turned]:
     """Return the record of a fault of data of some kinds; its sentence begins with the values."""
-    find = of_kinds(kinds, guesses)
+
+    @at_once
+    def find(evidence: Evidence) -> list[Turned]:
+        data = data_of(evidence)
+        return list(guesses(evidence, data)) if data.kind.name in kinds else []
+
     return Fault(name, sentence, why, advice, turned, find, numbers, words=words, witness=witness)
 
 

@@ -9,13 +9,13 @@ lengths of the picture's longer side. Both projections are one program: `perspec
 from __future__ import annotations
 
 import numpy as np
+from numpy.random import Generator
 from reference_tracer.arrays import Floats
 
-from ..cases import TableCases
-from ..form import Field, Form
+from ..form import Arrays, Field, Form, side_by_side
 from ..programs import Letters, Part, Program, unit
 from .camera_slips import SLIPS
-from .subject import Subject, side_by_side
+from .subject import Groups, Subject
 
 SEED = 20261126
 EACH = 40  # cases of a group
@@ -76,10 +76,11 @@ def letters(
     """
     half = np.arctan(sensor / (2 * lens))
     axes = np.broadcast_to(np.eye(3)[:, :, None], (3, 3, len(pixels)))
-    numbers = {
-        **dict(zip(("column", "row"), pixels.T, strict=True)),
-        **dict(zip(("columns", "rows"), resolutions.T, strict=True)),
-        **dict(zip(("shift_x", "shift_y"), shifts.T, strict=True)),
+    pairs = "column row columns rows shift_x shift_y".split()
+    names = "right up back e row_x row_y row_z axis_x axis_y axis_z".split()
+    of_matrix = matrices.transpose(2, 1, 0), matrices[:, :, :3].transpose(1, 2, 0)
+    values = {
+        **dict(zip(pairs, np.hstack((pixels, resolutions, shifts)).T, strict=True)),
         "longer": resolutions.max(axis=1),
         "shorter": resolutions.min(axis=1),
         "perspective": 1 - orthographic,
@@ -89,15 +90,9 @@ def letters(
         "scale": scale,
         "half_degrees": np.degrees(half),
         "whole_angle": 2 * half,
+        **dict(zip(names, np.concatenate((*of_matrix, axes)), strict=True)),
     }
-    vectors = {
-        **dict(zip(("right", "up", "back", "e"), matrices.transpose(2, 1, 0), strict=True)),
-        **dict(
-            zip(("row_x", "row_y", "row_z"), matrices[:, :, :3].transpose(1, 2, 0), strict=True)
-        ),
-        **dict(zip(("axis_x", "axis_y", "axis_z"), axes, strict=True)),
-    }
-    return Letters(numbers | vectors, (len(pixels),))
+    return Letters(values, (len(pixels),))
 
 
 def rows(directions: Floats, origins: Floats) -> Floats:
@@ -115,8 +110,8 @@ GROUPS = {
 }
 
 
-def cases() -> TableCases:
-    """Return the cases; the same each time."""
+def cases() -> Groups:
+    """Return what is asked, in groups; the same each time."""
     rng = np.random.default_rng(SEED)
     groups = {}
     for name in GROUPS:
@@ -126,10 +121,10 @@ def cases() -> TableCases:
             size = rng.permuted(size, axis=1)
         pixel = np.floor(rng.random((EACH, 2)) * size)
         groups[name] = (pixel, size, *some_cameras(rng, name, EACH))
-    return TableCases.of(CAMERA, groups)
+    return groups
 
 
-def some_cameras(rng: np.random.Generator, name: str, count: int) -> tuple[Floats, ...]:
+def some_cameras(rng: Generator, name: str, count: int) -> Arrays:
     """Return what a camera is given besides its resolution, of a group."""
     shifts = rng.uniform(-0.5, 0.5, (count, 2)) if "shifted" in name else np.zeros((count, 2))
     axes = np.linalg.qr(rng.normal(size=(count, 3, 3)))[0]
@@ -157,6 +152,6 @@ CAMERA = Subject(
     weights={"direction": 0.5, "origin": 0.5},
     groups=GROUPS,
     letters=letters,
-    cases=cases,
+    asked=cases,
     rows=rows,
 )

@@ -6,13 +6,13 @@ An object is a triangle in its own space, with a scale and a position in the wor
 from __future__ import annotations
 
 import numpy as np
+from numpy.random import Generator
 from reference_tracer.arrays import Floats
 
-from ..cases import TableCases
-from ..form import Field, Form
-from ..programs import Letters, Part, Program, Slip
-from .subject import Subject, side_by_side
-from .triangle import CORNERS, FORMULAS, RAYS
+from ..form import Arrays, Field, Form, side_by_side
+from ..programs import Letters, Part, Program, Slip, unit
+from .subject import Groups, Subject
+from .triangle import CONDITIONS, CORNERS, FORMULAS, RAYS
 from .triangle import TEXTBOOK as TRIANGLE_TEST
 
 SEED = 20261126
@@ -20,6 +20,8 @@ EACH = 40  # cases of a group
 OBJECTS = 5  # of a scene
 
 PARTS = Part("t", ("t",), 1), Part("object", ("owner",), 1)
+# Those that change which triangle is hit.
+TRIANGLE_SLIPS = tuple(s for s in TRIANGLE_TEST.slips if not set(s.formulas) & {"s₂", "‖n‖²"})
 CHOICE_SLIPS = (
     Slip(
         "first_hit",
@@ -43,7 +45,7 @@ CHOICE_SLIPS = (
 )
 TEXTBOOK = Program.of(
     {"o": "(o_world − c) / k", "d": "d_world / k", **FORMULAS},
-    tuple(str(c) for c in TRIANGLE_TEST.conditions),
+    CONDITIONS,
     ("p₁ p₂ p₃ x o", "n nₛ₁ nₛ₂ nₛ₃ d", "o_world c"),
     PARTS,
     (
@@ -68,7 +70,7 @@ TEXTBOOK = Program.of(
             "the ray's origin is divided by the scale before the position is taken off",
             {"o": "o_world / k − c"},
         ),
-        *(slip for slip in TRIANGLE_TEST.slips if not set(slip.formulas) & {"s₂", "‖n‖²"}),
+        *TRIANGLE_SLIPS,
     ),
     "nearest",
 )
@@ -114,29 +116,27 @@ GROUPS = {
 }
 
 
-def cases() -> TableCases:
-    """Return the cases; the same each time."""
+def cases() -> Groups:
+    """Return what is asked, in groups; the same each time."""
     rng = np.random.default_rng(SEED)
-    return TableCases.of(NEAREST, {name: _scenes(rng, name) for name in GROUPS})
+    return {name: _scenes(rng, name) for name in GROUPS}
 
 
-def _scenes(rng: np.random.Generator, name: str) -> tuple[Floats, ...]:
+def _scenes(rng: Generator, name: str) -> Arrays:
     shape = EACH, OBJECTS
     where = np.argsort(rng.random(shape), axis=1)  # a random order in each scene
     t = 2 * 1.25 ** np.argsort(rng.random(shape), axis=1) * rng.uniform(1, 1.1, shape)
-    hit = {"one": where == 0, "none": where < 0}.get(name, where < 4)
+    hit = where < {"one": 1, "none": 2}.get(name, 4)
     if name == "behind":
         t = np.where(where == 0, -0.3 * t.min(axis=1, keepdims=True), t)
     if name == "none":
-        hit, t = where < 2, np.where(where < 2, -t, t)
+        t = np.where(hit, -t, t)
     s = rng.dirichlet((3, 3, 3), shape) * 0.7 + 0.1
     beside = rng.permuted(rng.choice(((-0.4, 0.6, 0.8), (1.6, -0.3, -0.3)), shape), axis=2)
     s = np.where(hit[..., None], s, beside)
     origin, direction = 3 * rng.normal(size=(EACH, 3)), rng.normal(size=(EACH, 3))
     point = origin[:, None] + t[..., None] * direction[:, None]
     corners = _triangles(rng, direction) * (100.0 if name == "large" else 1.0)
-    if name == "large":
-        t = np.where(where < 2, -t, t)
     corners += (point - (s[..., None] * corners).sum(axis=2))[:, :, None]
     spread = 3.0 if name == "scaled" else 0.5
     scale = 2.0 ** rng.uniform(-spread, spread, shape)
@@ -151,13 +151,10 @@ def _scenes(rng: np.random.Generator, name: str) -> tuple[Floats, ...]:
     return origin, direction, own, scale, position
 
 
-def _triangles(rng: np.random.Generator, direction: Floats) -> Floats:
+def _triangles(rng: Generator, direction: Floats) -> Floats:
     """Return triangles (n, k, 3, 3) about the origin that face a direction (n, 3), or turn away."""
-    axis = direction / np.linalg.norm(direction, axis=1, keepdims=True)
-    normal = axis[:, None] + 0.4 * rng.normal(size=(EACH, OBJECTS, 3))
-    normal /= np.linalg.norm(normal, axis=2, keepdims=True)
-    first = np.cross(normal, rng.normal(size=normal.shape))
-    first /= np.linalg.norm(first, axis=2, keepdims=True)
+    normal = unit(unit(direction)[:, None] + 0.4 * rng.normal(size=(EACH, OBJECTS, 3)))
+    first = unit(np.cross(normal, rng.normal(size=normal.shape)))
     second = np.cross(normal, first) * rng.choice((-1, 1), (EACH, OBJECTS, 1))
     angles = 2 * np.pi * (np.arange(3) / 3 + rng.uniform(-0.1, 0.1, (EACH, OBJECTS, 3)))
     across = np.cos(angles)[..., None] * first[:, :, None]
@@ -177,6 +174,6 @@ NEAREST = Subject(
     weights={"object": 0.6, "t": 0.4},
     groups=GROUPS,
     letters=letters,
-    cases=cases,
+    asked=cases,
     rows=rows,
 )

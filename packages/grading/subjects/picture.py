@@ -8,16 +8,15 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
+from numpy.random import Generator
 from reference_tracer.arrays import Floats
 
-from ..cases import TableCases
-from ..form import Field, Form
+from ..form import Arrays, Field, Form
 from ..programs import Letters, Part, Program, Slip
 from . import camera
-from .nearest import CHOICE_SLIPS
-from .subject import Subject
-from .triangle import CORNERS, FORMULAS
-from .triangle import TEXTBOOK as TRIANGLE_TEST
+from .nearest import CHOICE_SLIPS, TRIANGLE_SLIPS
+from .subject import Groups, Subject
+from .triangle import CONDITIONS, CORNERS, FORMULAS
 
 SEED = 20261126
 LONGER, SHORTER = 24, 16  # pixels of a picture's sides
@@ -28,7 +27,7 @@ NOTHING = -1.0  # what a pixel shows where nothing is hit
 PARTS = (Part("pixels", ("shown",), 1, 1.0),)
 TEXTBOOK = Program.of(
     {**camera.FORMULAS, **FORMULAS},
-    tuple(str(c) for c in TRIANGLE_TEST.conditions),
+    CONDITIONS,
     (*camera.KINDS, "p₁ p₂ p₃ x o", "n nₛ₁ nₛ₂ nₛ₃"),
     PARTS,
     (
@@ -42,7 +41,7 @@ TEXTBOOK = Program.of(
         ),
         *camera.TEXTBOOK.slips,
         *CHOICE_SLIPS,
-        *(slip for slip in TRIANGLE_TEST.slips if not set(slip.formulas) & {"s₂", "‖n‖²"}),
+        *TRIANGLE_SLIPS,
     ),
     "nearest",
 )
@@ -74,13 +73,13 @@ def rows(objects: Floats) -> Floats:
     return np.where(flat >= 0, flat, np.inf)
 
 
-def cases() -> TableCases:
-    """Return the cases; the same each time."""
+def cases() -> Groups:
+    """Return what is asked, in groups; the same each time."""
     rng = np.random.default_rng(SEED)
-    return TableCases.of(PICTURE, {name: _picture(rng, name) for name in camera.GROUPS})
+    return {name: _picture(rng, name) for name in camera.GROUPS}
 
 
-def _picture(rng: np.random.Generator, name: str) -> tuple[Floats, ...]:
+def _picture(rng: Generator, name: str) -> Arrays:
     """Return one picture of a group: a camera, and triangles spread over what it sees.
 
     The farthest covers half of the picture and reaches far beyond; one lies behind the camera.
@@ -100,16 +99,21 @@ def _picture(rng: np.random.Generator, name: str) -> tuple[Floats, ...]:
     turn = 2 * np.pi * rng.random(OBJECTS)
     far = order == OBJECTS - 1
     radius[far] = 20 * window.max()
-    edge = np.stack((np.cos(turn + np.pi / 3), np.sin(turn + np.pi / 3)), axis=1)
+    edge = _at(turn + np.pi / 3)
     middle[far] = -radius[far] / 2 * edge[far]
     around = turn[:, None] + 2 * np.pi / 3 * np.arange(3) * rng.choice((-1, 1), (OBJECTS, 1))
-    flat = np.stack((np.cos(around), np.sin(around)), axis=2) * radius[:, None, None]
+    flat = _at(around) * radius[:, None, None]
     flat += middle[:, None] + shifts[0] * width
     depths = depth[:, None] + rng.uniform(-0.4, 0.4, (OBJECTS, 3))
     flat *= 1 if orthographic[0] else np.abs(depths)[..., None]
     local = np.concatenate((flat, -depths[..., None]), axis=2)
     triangles = local @ matrix[0, :, :3].T + matrix[0, :, 3]
     return (resolution[None], orthographic, lens, sensor, scale, shifts, matrix, triangles[None])
+
+
+def _at(angles: Floats) -> Floats:
+    """Return points of the circle of radius 1, (..., 2)."""
+    return np.stack((np.cos(angles), np.sin(angles)), axis=-1)
 
 
 PICTURE = Subject(
@@ -127,6 +131,6 @@ PICTURE = Subject(
     weights={"pixels": 1.0},
     groups=camera.GROUPS,
     letters=letters,
-    cases=cases,
+    asked=cases,
     rows=rows,
 )

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.random import Generator
 from reference_tracer.arrays import Floats
 from reference_tracer.derivation.formulas import PLANE as LISTED
 
-from ..cases import TableCases
 from ..form import Field, Form
-from ..programs import Letters, Part, Program, Slip
-from .subject import Subject
+from ..programs import Letters, Part, Program, Slip, unit
+from .subject import Groups, Subject
 from .triangle import RAYS
 
 SEED = 20261126
@@ -65,12 +65,12 @@ def letters(origins: Floats, directions: Floats, points: Floats, normals: Floats
     return Letters(values | lengths, (len(origins),))
 
 
-def cases() -> TableCases:
-    """Return the cases; the same each time."""
+def cases() -> Groups:
+    """Return what is asked, in groups; the same each time."""
     rng = np.random.default_rng(SEED)
     o, d, p, n = front = _towards(rng, 0.6)
     beside = _integers(rng)
-    groups = {
+    return {
         "front": front,
         "back": (o, d, p, -n),
         "whole": _whole(rng),
@@ -81,39 +81,35 @@ def cases() -> TableCases:
         "parallel": beside,
         "inside": (beside[2], *beside[1:]),
     }
-    return TableCases.of(PLANE, groups, whole=("whole", "parallel", "inside"))
 
 
 Planes = tuple[Floats, Floats, Floats, Floats]  # origins, directions, points, normals
 
 
-def _towards(rng: np.random.Generator, slant: float) -> Planes:
+def _towards(rng: Generator, slant: float) -> Planes:
     """Return rays towards planes that their normals point to; a large slant makes them graze."""
-    unit = rng.normal(size=(EACH, 3))
-    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
-    along = np.cross(unit, rng.normal(size=(EACH, 3)))
-    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    n = unit(rng.normal(size=(EACH, 3)))
+    along = unit(np.cross(n, rng.normal(size=(EACH, 3))))
     length, speed, size = 2.0 ** rng.uniform(-2, 2, (3, EACH, 1))
     point = rng.normal(size=(EACH, 3)) * 3
-    away = (unit + slant * along) / max(1.0, slant)
-    inside = np.cross(unit, rng.normal(size=(EACH, 3)))
-    return point + length * away, -speed * away, point + inside, size * unit
+    away = (n + slant * along) / max(1.0, slant)
+    inside = np.cross(n, rng.normal(size=(EACH, 3)))
+    return point + length * away, -speed * away, point + inside, size * n
 
 
-def _whole(rng: np.random.Generator) -> Planes:
+def _whole(rng: Generator) -> Planes:
     """Return rays and planes of which every product, sum and quotient is a float."""
     axis = rng.integers(0, 3, EACH)
     n, d = np.zeros((EACH, 3)), rng.integers(-3, 4, (EACH, 3)).astype(float)
     rows, sign = np.arange(EACH), rng.choice((-1.0, 1.0), EACH)
     n[rows, axis] = 2.0 ** rng.integers(-2, 3, EACH) * sign
     d[rows, axis] = 2.0 ** rng.integers(-2, 3, EACH) * rng.choice((-1.0, 1.0), EACH)
-    point = rng.integers(-8, 9, (EACH, 3)).astype(float)
-    other = rng.integers(-8, 9, (EACH, 3)).astype(float)
+    point, other = rng.integers(-8, 9, (2, EACH, 3)).astype(float)
     other[rows, axis] = point[rows, axis]
     return point - 4 * d, d, other, n
 
 
-def _integers(rng: np.random.Generator) -> Planes:
+def _integers(rng: Generator) -> Planes:
     """Return rays of integers along planes across an axis, beside them.
 
     d . n is exactly 0 in every formula, also where d or n is normalised first.
@@ -148,5 +144,6 @@ PLANE = Subject(
         "inside": "rays in their plane, which are parallel to it, too",
     },
     letters=letters,
-    cases=cases,
+    asked=cases,
+    whole=("whole", "parallel", "inside"),
 )

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from reference_tracer.arrays import Floats
 from reference_tracer.derivation.formulas import TRIANGLE as LISTED
 
-from ..cases import TableCases
 from ..form import Field, Form
 from ..programs import Letters, Part, Program, Slip
 from .subject import Subject
@@ -36,9 +35,10 @@ def _one_side(towards: str) -> Iterator[Slip]:
         yield Slip(name, text, conditions={"t > 0": ("t > 0", f"{towards} {sign} 0")})
 
 
+CONDITIONS = "s₁ ≥ 0", "s₂ ≥ 0", "s₃ ≥ 0", "t > 0"
 TEXTBOOK = Program.of(
     FORMULAS,
-    ("s₁ ≥ 0", "s₂ ≥ 0", "s₃ ≥ 0", "t > 0"),
+    CONDITIONS,
     ("p₁ p₂ p₃ x o", "n nₛ₁ nₛ₂ nₛ₃ d"),
     PARTS,
     (
@@ -124,7 +124,7 @@ SIGNED_VOLUMES = Program.of(
         # As the weights' sum is 1, their errors move the point by edges, not by arms.
         "t": "(d · (a + s₂ (p₂ − p₁) + s₃ (p₃ − p₁))) / (d · d)",
     },
-    ("s₁ ≥ 0", "s₂ ≥ 0", "s₃ ≥ 0", "t > 0"),
+    CONDITIONS,
     (),
     PARTS,
 )
@@ -141,19 +141,6 @@ def letters(origins: Floats, directions: Floats, triangles: Floats) -> Letters:
     """Return the letters of n pairs: (n, 3), (n, 3), (n, 3, 3) float64."""
     corners = zip(CORNERS, triangles.transpose(1, 2, 0), strict=True)
     return Letters({"o": origins.T, "d": directions.T, **dict(corners)}, (len(origins),))
-
-
-def cases() -> TableCases:
-    """Return the cases; the same each time."""
-    return TableCases.of(
-        TRIANGLE,
-        groups(),
-        # d . n is exactly 0 of rays parallel to their plane: there is nothing to round.
-        whole=("whole", "parallel"),
-        aside=("elsewhere",),
-        silent=("parallel",),
-        close=("beside",),
-    )
 
 
 TRIANGLE = Subject(
@@ -176,6 +163,11 @@ TRIANGLE = Subject(
         "elsewhere": "rays all around a triangle: they do not count, but tell mistakes apart",
     },
     letters=letters,
-    cases=cases,
+    asked=groups,
     tests=TESTS,
+    # d . n is exactly 0 of rays parallel to their plane: there is nothing to round.
+    whole=("whole", "parallel"),
+    aside=("elsewhere",),
+    silent=("parallel",),
+    close=("beside",),
 )

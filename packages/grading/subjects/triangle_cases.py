@@ -7,8 +7,13 @@ without its back faces.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
-from reference_tracer.arrays import Floats
+from numpy.random import Generator
+from reference_tracer.arrays import Bools, Floats
+
+from ..programs import unit
 
 SEED = 20240611
 EACH = 400  # pairs of a group
@@ -37,16 +42,29 @@ def groups(seed: int = SEED) -> dict[str, Pairs]:
     }
 
 
-def _triangles(rng: np.random.Generator) -> Floats:
-    """Return triangles of an ordinary shape, (EACH, 3, 3)."""
+def normals(p: Floats) -> Floats:
+    """Return the normals of triangles (n, 3, 3), (n, 3)."""
+    return np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+
+
+def _drawn(draw: Callable[[], Floats], wanted: Callable[[Floats], Bools]) -> Floats:
+    """Return the first EACH triangles that are wanted, (EACH, 3, 3)."""
     out = np.zeros((0, 3, 3))
     while len(out) < EACH:
-        p = rng.normal(size=(EACH, 3, 3))
-        n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-        longest = np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2).max(axis=1)
-        high = np.linalg.norm(n, axis=1) > 0.3 * longest**2
-        out = np.concatenate((out, p[high & (longest > 0.5)]))
+        some = draw()
+        out = np.concatenate((out, some[wanted(some)]))
     return out[:EACH]
+
+
+def _triangles(rng: Generator) -> Floats:
+    """Return triangles of an ordinary shape, (EACH, 3, 3)."""
+
+    def ordinary(p: Floats) -> Bools:
+        longest = np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2).max(axis=1)
+        high = np.linalg.norm(normals(p), axis=1) > 0.3 * longest**2
+        return high & (longest > 0.5)
+
+    return _drawn(lambda: rng.normal(size=(EACH, 3, 3)), ordinary)
 
 
 def _powers(base: float, exponents: Floats) -> Floats:
@@ -54,31 +72,27 @@ def _powers(base: float, exponents: Floats) -> Floats:
     return np.array([base**e for e in exponents.ravel().tolist()]).reshape(exponents.shape)
 
 
-def _towards(rng: np.random.Generator, p: Floats, s: Floats) -> Pairs:
+def _towards(rng: Generator, p: Floats, s: Floats) -> Pairs:
     """Return rays towards points of triangles' planes, from the front, at no small angle."""
-    n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-    n /= np.linalg.norm(n, axis=1, keepdims=True)
-    away = rng.normal(size=n.shape)
-    away /= np.linalg.norm(away, axis=1, keepdims=True)
-    away = n + 0.6 * away
-    length, speed = rng.uniform(2, 6, (len(n), 1)), _powers(2, rng.uniform(-2, 2, (len(n), 1)))
+    away = unit(normals(p)) + 0.6 * unit(rng.normal(size=(len(p), 3)))
+    length, speed = rng.uniform(2, 6, (len(p), 1)), _powers(2, rng.uniform(-2, 2, (len(p), 1)))
     point = (s[:, :, None] * p).sum(axis=1)
     return point + length * away, -speed * away, p
 
 
-def _outside(rng: np.random.Generator) -> Floats:
+def _outside(rng: Generator) -> Floats:
     """Return barycentrics of which one or two are clearly negative."""
     s = rng.uniform(0.1, 1, (EACH, 3))
     which = np.arange(EACH)
     s[which, which % 3] *= -1
-    two = which % 2 == 1
-    s[which[two], (which[two] + 1) % 3] *= -1
+    two = which[1::2]
+    s[two, (two + 1) % 3] *= -1
     total = s.sum(axis=1, keepdims=True)
     s += np.where(s > 0, 1.5 - total, 0) / (s > 0).sum(axis=1, keepdims=True)
     return s / s.sum(axis=1, keepdims=True)
 
 
-def _elsewhere(rng: np.random.Generator) -> Pairs:
+def _elsewhere(rng: Generator) -> Pairs:
     """Return rays through points all around their triangles, half of them behind the origin."""
     s = rng.uniform(-1.5, 2, (EACH, 3))
     s[:, 0] = 1 - s[:, 1] - s[:, 2]
@@ -86,7 +100,7 @@ def _elsewhere(rng: np.random.Generator) -> Pairs:
     return np.tile(o, (2, 1)), np.concatenate((d, -d)), np.tile(p, (2, 1, 1))
 
 
-def _beside(rng: np.random.Generator) -> Floats:
+def _beside(rng: Generator) -> Floats:
     """Return barycentrics of which one is nearly 0, on either side."""
     s = rng.uniform(0.2, 0.8, (EACH, 3))
     which = np.arange(EACH)
@@ -98,7 +112,7 @@ def _beside(rng: np.random.Generator) -> Floats:
     return s
 
 
-def whole(rng: np.random.Generator) -> Pairs:
+def whole(rng: Generator) -> Pairs:
     """Return hits whose every product, sum and quotient is a float: legs are powers of two."""
     legs = 2.0 ** rng.integers(0, 4, (EACH, 2))
     s2 = rng.integers(1, 8, EACH) / 16
@@ -131,21 +145,18 @@ def _scaled(front: Pairs) -> Pairs:
     )
 
 
-def _parallel(rng: np.random.Generator) -> Pairs:
+def _parallel(rng: Generator) -> Pairs:
     """Return rays along the plane of a triangle of integers, beside it, over its middle."""
-    p = np.zeros((0, 3, 3))
-    while len(p) < EACH:
-        some = rng.integers(-9, 10, (EACH, 3, 3)).astype(float)
-        n = np.cross(some[:, 1] - some[:, 0], some[:, 2] - some[:, 0])
-        p = np.concatenate((p, some[np.abs(n).sum(axis=1) > 20]))
-    p = p[:EACH]
+    p = _drawn(
+        lambda: rng.integers(-9, 10, (EACH, 3, 3)).astype(float),
+        lambda some: np.abs(normals(some)).sum(axis=1) > 20,
+    )
     e, f = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
     d = rng.integers(1, 4, (EACH, 1)) * e + rng.integers(-3, 4, (EACH, 1)) * f
-    n = np.cross(e, f)
-    return p[:, 0] - 2 * d + np.sign(n), d, p
+    return p[:, 0] - 2 * d + np.sign(normals(p)), d, p
 
 
-def _empty(rng: np.random.Generator) -> Pairs:
+def _empty(rng: Generator) -> Pairs:
     """Return rays through the middle of triangles whose corners are in a line, or one point."""
     first = rng.integers(-9, 10, (EACH, 3)).astype(float)
     e = rng.integers(-4, 5, (EACH, 3)).astype(float)

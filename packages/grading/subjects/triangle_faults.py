@@ -12,10 +12,11 @@ from itertools import permutations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from reference_tracer.arrays import Bools
 
 from ..group_faults import FEW, FLOAT32, LOSSY, MOST, Found, Tests, always, never, single
 from ..mutations import mutations
-from ..programs import Mask
+from .triangle_cases import normals
 
 if TYPE_CHECKING:
     from ..cases import TableAnswers
@@ -43,8 +44,7 @@ def sum_equals_one(a: TableAnswers) -> Found:
     seen = np.ones(len(a.hit), bool)
     if a.hit[a.cases.among("back")].mean() < FEW:
         _, directions, p = a.cases.given
-        n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-        seen = (n * directions).sum(axis=1) < 0
+        seen = (normals(p) * directions).sum(axis=1) < 0
     lost = (~a.hit)[seen & a.cases.among("front", "back")].mean()
     if RANDOM[0] < lost < RANDOM[1] and a.hit[seen & a.cases.among("whole")].mean() > 1 - FEW / 10:
         text = (
@@ -94,10 +94,10 @@ def beside_edges(a: TableAnswers) -> Found:
 
 def parallel(a: TableAnswers) -> Found:
     """See whether a ray along the plane is said to meet it."""
-    hit = a.cases.among("parallel") & a.hit
-    if hit.sum() > 0.01 * a.cases.among("parallel").sum():
+    own = a.cases.among("parallel")
+    if a.hit[own].mean() > 0.01:
         text = "rays that are parallel to the triangle's plane hit it: d . n = 0 is no hit"
-        yield "parallel", text, hit
+        yield "parallel", text, own & a.hit
 
 
 def of_t(a: TableAnswers) -> Found:
@@ -171,7 +171,7 @@ def order_and_scale(a: TableAnswers) -> Found:
             return
 
 
-def _fits(a: TableAnswers, share: str, explained: Mask) -> bool:
+def _fits(a: TableAnswers, share: str, explained: Bools) -> bool:
     """Whether a fault explains nearly all of the wrong numbers of ordinary hits."""
     ordinary = a.wrong_numbers(share) & a.cases.among(*ORDINARY)
     return bool(ordinary.any() and explained[ordinary].mean() > MOST)

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.causes.checks.coverage import coverage, nearest_to_origin
-from reference_tracer.causes.checks.probe import Probe
+from reference_tracer.causes.checks.probe import SOUND, Probe
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.nearest import plan
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Settings
 
 BAND = 0.004  # pixels
 
@@ -37,13 +36,12 @@ def test_nearest_points_are_those_of_dense_samples_of_the_edges(rng):
     assert np.allclose(np.linalg.norm(point, axis=0)[~inside], -rim[~inside])
 
 
-def asked(scene, band=BAND, settings=None):
+def asked(scene, band=BAND):
     """Return the coverage of all pixels of a picture."""
-    settings = settings or Settings("moller_trumbore")
     region = scene.camera.region
-    made = result_of(plan(scene, settings, reach=band))
+    made = result_of(plan(scene, SOUND, reach=band))
     count = region.width * region.height
-    probe = result_of(Probe.of(made, region, np.ones(count, bool), settings))
+    probe = result_of(Probe.of(made, region, np.ones(count, bool)))
     return result_of(coverage(probe, np.full(count, band)))
 
 
@@ -63,9 +61,8 @@ def sliver(x, y0=-9, y1=99, width=1e-4, z=-2.0):
 @pytest.mark.parametrize(
     "offset, found", [(0.002, True), (-0.0032, True), (0.0045, False), (0.3, False)]
 )
-@pytest.mark.parametrize("method", ["textbook", "moller_trumbore"])
-def test_a_sliver_between_all_samples_is_found(make, pixels, offset, found, method):
-    may = asked(make.scene(pixels, sliver(offset)), settings=Settings(method))
+def test_a_sliver_between_all_samples_is_found(make, pixels, offset, found):
+    may = asked(make.scene(pixels, sliver(offset)))
     assert sorted(may.pixel.tolist()) == ([4 + 8 * y for y in range(6)] if found else [])
     assert np.allclose(may.distance, abs(offset), rtol=0, atol=1e-4 + 99 * 2.0**-20)
     assert (may.hits.t == pytest.approx(2)) and (may.hits.instance == 0).all()

@@ -5,15 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.causes.checks import probe as probing
-from reference_tracer.causes.checks.probe import Probe
+from reference_tracer.causes.checks.probe import SOUND, Probe
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
 from reference_tracer.tracer import candidates
 from reference_tracer.tracer.nearest import plan
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Settings
 
 TILE = Region(2, 3, 18, 13)
-PLAIN = Settings("watertight")  # a probe has no certified ray
 
 
 @pytest.fixture
@@ -35,7 +33,7 @@ def wanted(rng):
 def test_steps_are_small(scene, wanted, monkeypatch):
     for module in (candidates, probing):
         monkeypatch.setattr(module, "PAIRS", 100)
-    made = result_of(plan(scene, PLAIN, 0.5))
-    probe = result_of(Probe.of(made, TILE, wanted, PLAIN))
+    made = result_of(plan(scene, SOUND, 0.5))
+    probe = result_of(Probe.of(made, TILE, wanted))
     assert len(probe.chunks) > 5
     assert max(len(some.pixel) for some in probe.chunks) <= 100

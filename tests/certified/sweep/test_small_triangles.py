@@ -47,7 +47,8 @@ def test_the_picture_is_the_same(make, dense_scene, orthographic, together, monk
     some = np.flatnonzero(scene.instance_meshes == 0)
     total, each = 0, len(scene.meshes[0].vertices)
     monkeypatch.setattr(module, "_TRIANGLES", together)
-    for own, counts, corners, used, triangle in filter(None, small.within(scene.meshes[0], some)):
+    for part in filter(None, small.within(scene.meshes[0], some)):
+        _, own, counts, corners, used, triangle = part
         copy = np.repeat(np.arange(len(own)), counts)
         assert np.array_equal(used[corners], scene.meshes[0].triangles[triangle].T + each * copy)
         total += counts.sum()

@@ -30,11 +30,14 @@ def _instance(v: Inputs, projection: Projection) -> Kept:
     own = film.of(v, projection, "place", "weight", "ray_error", "depth_error")
     own.camera.region = region(v)
 
+    def of_corners(name: str):
+        return v.vector(" ".join(f"{name}{n}" for n in range(8)))[:, 0]
+
     def enter(_, vertices, first, world) -> None:
         for name in ("p", "q", "w", "depth", "ahead"):
-            getattr(vertices, name)[:] = v.vector(" ".join(f"{name}{n}" for n in range(8)))[:, 0]
+            getattr(vertices, name)[:] = of_corners(name)
         for k, name in enumerate(_ENDS):
-            vertices.box[:, k] = v.vector(" ".join(f"{name}{n}" for n in range(8)))[:, 0]
+            vertices.box[:, k] = of_corners(name)
 
     with (
         film.python(boxes),
@@ -58,8 +61,7 @@ def _corners(v: Inputs) -> Kept:
     matrix = [v.stacked([v.one(f"m{i}{k}") for k in range(4)]) for i in range(3)]
     bounds = [v.vector(names).reshape(-1) for names in ("lx ly lz", "hx hy hz")]
     scene = SimpleNamespace(
-        meshes=[SimpleNamespace(bounds=v.stacked(bounds))],
-        instance_meshes=FIRST,
+        instance_bounds=[end[:, None] for end in bounds],
         instance_matrices=v.stacked(matrix),
     )
     corners, size = boxes._corners(scene)

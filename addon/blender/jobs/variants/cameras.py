@@ -13,7 +13,7 @@ from bpy.types import ID
 from ....causes.case import Variant
 from ....scene import Camera, SceneError
 from ...reading.camera import camera_axes, export_camera, projection_of, window_of
-from .matrices import without_scale
+from .matrices import OF_PARENT
 from .origin import Origin
 
 MOST = 8  # other cameras
@@ -81,13 +81,7 @@ def _placed(origin: Origin) -> Iterator[tuple[str, str, Camera]]:
     matrix = np.array(obj.matrix_world, np.float64)
     if not np.allclose(matrix[:3, :3], camera.world_from_camera[:3, :3], atol=1e-6):
         yield "camera_scale", "", replace(camera, world_from_camera=matrix)
-    if obj.parent is None:
-        return
-    name = f"that of camera '{obj.name_full}'"
-    basis = camera_axes(obj.matrix_basis, obj.name)
-    yield "parent_left_out", name, replace(camera, world_from_camera=basis)
-    without = camera_axes(obj.parent.matrix_world @ obj.matrix_basis, obj.name)
-    yield "parent_inverse", name, replace(camera, world_from_camera=without)
-    above = without_scale(obj.parent.matrix_world)
-    unscaled = camera_axes(above @ obj.matrix_parent_inverse @ obj.matrix_basis, obj.name)
-    yield "parent_scale", name, replace(camera, world_from_camera=unscaled)
+    for fault, placed in OF_PARENT.items() if obj.parent else ():
+        axes = camera_axes(placed(obj), obj.name)
+        name = f"that of camera '{obj.name_full}'"
+        yield fault, name, replace(camera, world_from_camera=axes)

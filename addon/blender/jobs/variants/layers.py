@@ -25,7 +25,7 @@ def variants(origin: Origin) -> Iterator[Variant]:
     names = [v.name for v in origin.scene.view_layers if v.name != origin.layer]
     for name in names[:MOST]:
         with temporary_scene(origin.scene, name, palette=origin.palette) as tmp, everything(tmp):
-            scene, _, _ = export_for_render(tmp)
+            scene, _ = export_for_render(tmp)
         yield Variant("other_layer", scene, f"'{name}'")
 
 

@@ -13,6 +13,7 @@ from mathutils import Matrix
 from ....arrays import Floats
 from ....causes.case import Variant
 from ....scene import Scene
+from ...values import values_restored
 from .origin import Origin, all_and_each
 
 NEAR = 1e-5
@@ -22,8 +23,11 @@ Placed = Callable[[Any], Any]  # of an object, its other world matrix
 
 def variants(origin: Origin) -> Iterator[Variant]:
     """Yield the scene with every object in another place by the same mistake, then single ones."""
-    for fault, placed in WRONG.items():
-        yield from _misplaced(origin, fault, placed)
+    objects = origin.objects.items()
+    for fault, placed in OF_PARENT.items():
+        yield from _misplaced(origin, fault, {n: placed(o) for n, o in objects if o.parent})
+    without = {name: _without_delta(obj) for name, obj in objects}
+    yield from _misplaced(origin, "delta_left_out", without)
     yield from _instances(origin)
     yield from _without_offsets(origin)
 
@@ -42,33 +46,30 @@ def _without_delta(obj: Any) -> Matrix:
     return obj.matrix_world @ obj.matrix_basis.inverted_safe() @ own
 
 
-def without_scale(matrix: Matrix) -> Matrix:
+def _without_scale(matrix: Matrix) -> Matrix:
     """Return the place and the rotation of a matrix of Blender's, as it takes them apart."""
     place, rotation, _ = matrix.decompose()
     return Matrix.LocRotScale(place, rotation, None)
 
 
-def _of_parent(placed: Placed) -> Placed:
-    """Return another place of what has a parent; all else stays."""
-    return lambda obj: placed(obj) if obj.parent else obj.matrix_world
-
-
-# By their faults, mistakes about where objects are.
-WRONG: dict[str, Placed] = {
-    "parent_left_out": _of_parent(lambda o: o.matrix_basis),
-    "parent_inverse": _of_parent(lambda o: o.parent.matrix_world @ o.matrix_basis),
-    "parent_scale": _of_parent(
-        lambda o: without_scale(o.parent.matrix_world) @ o.matrix_parent_inverse @ o.matrix_basis
+# By their faults, mistakes about where what has a parent is.
+OF_PARENT: dict[str, Placed] = {
+    "parent_left_out": lambda o: o.matrix_basis,
+    "parent_inverse": lambda o: o.parent.matrix_world @ o.matrix_basis,
+    "parent_scale": lambda o: (
+        _without_scale(o.parent.matrix_world) @ o.matrix_parent_inverse @ o.matrix_basis
     ),
-    "delta_left_out": _without_delta,
 }
 
 
-def _misplaced(origin: Origin, fault: str, placed: Placed) -> Iterator[Variant]:
+def _misplaced(origin: Origin, fault: str, found: Mapping[str, Matrix]) -> Iterator[Variant]:
     """Yield the scene with objects in another place, where that is another than their own."""
-    found = {name: _world(placed(obj)) for name, obj in origin.objects.items()}
-    own = {name: _world(obj.matrix_world) for name, obj in origin.objects.items()}
-    wrong = {n: m for n, m in found.items() if not np.allclose(m, own[n], atol=NEAR)}
+    own = origin.objects
+    wrong = {
+        name: _world(matrix)
+        for name, matrix in found.items()
+        if not np.allclose(matrix, own[name].matrix_world, atol=NEAR)
+    }
 
     def made(names: Collection[str]) -> Scene:
         return _moved(origin, {name: wrong[name] for name in names}, are_at_home=True)[0]
@@ -111,14 +112,10 @@ def _world(matrix: Any) -> Floats:
 def _without_offsets(origin: Origin) -> Iterator[Variant]:
     """Yield the scene with the offsets of all instanced collections left out."""
     moved = [c for c in bpy.data.collections if c.instance_offset.length]
-    offsets = [c.instance_offset.copy() for c in moved]
     if not moved:
         return
-    try:
+    with values_restored((c, "instance_offset") for c in moved):
         for collection in moved:
             collection.instance_offset = (0, 0, 0)
         scene = origin.again()
-    finally:
-        for collection, offset in zip(moved, offsets, strict=True):
-            collection.instance_offset = offset
     yield Variant("instance_offset", scene, "that of " + ", ".join(f"'{c.name}'" for c in moved))

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from contextlib import contextmanager
 from functools import partial
-from typing import Any
 
 import bpy
 import numpy as np
@@ -14,6 +12,7 @@ from ....causes.case import Variant
 from ....scene import Mesh, Scene
 from ...reading.export import export
 from ...reading.meshes import read_mesh
+from ...values import values_restored
 from .origin import Origin, all_and_each
 
 LEVELS = (-1, 1, -2, 2)  # of subdivision more, or less
@@ -76,19 +75,8 @@ def _subdivided(origin: Origin) -> Iterator[Variant]:
         many = change > 0 and 4**change * origin.exported.triangle_count > MOST_TRIANGLES
         if many or all(m.render_levels + change < 0 for m in modifiers):
             continue
-        with _levels(modifiers, change):
+        with values_restored((m, "render_levels") for m in modifiers):
+            for modifier in modifiers:
+                modifier.render_levels = max(modifier.render_levels + change, 0)
             scene = origin.again()
         yield Variant("subdivision", scene, f"{change:+d} of the render's levels")
-
-
-@contextmanager
-def _levels(modifiers: list[Any], change: int) -> Iterator[None]:
-    """Have modifiers render other levels, for a while."""
-    before = [m.render_levels for m in modifiers]
-    try:
-        for modifier, level in zip(modifiers, before, strict=True):
-            modifier.render_levels = max(level + change, 0)
-        yield
-    finally:
-        for modifier, level in zip(modifiers, before, strict=True):
-            modifier.render_levels = level

@@ -11,6 +11,7 @@ import bpy
 from ....causes.case import Variant
 from ....pictures.palette import Palette
 from ....scene import Scene
+from ....wording import listed
 from ...evaluating import export_for_render
 
 MOST = 6  # objects that are tried alone
@@ -25,7 +26,7 @@ def all_and_each(
     """
     alone = [[name] for name in [*names][:MOST]]
     for some in ([*names], *alone) if len(names) > 1 else alone:
-        said = ", ".join(f"'{name}'" for name in some[:3]) + (" ..." if len(some) > 3 else "")
+        said = listed([f"'{name}'" for name in some], 3)
         name = some[0] if len(some) == 1 else ""
         yield Variant(fault, made(some), words.format(said), name)
 
