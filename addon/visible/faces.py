@@ -51,13 +51,11 @@ class Faces:
     `start` (k + 1,) is the first of each instance; `corners` (3, m) indexes `points` (3, v), in
     world space. Corners with the same coordinates have the same number in `welded` (v,), and those
     that are seen as one point in `shown` (v,).
-    `low`, `high` (2, m) enclose each face on the film, `near`, `far` (m,) its depth,
-    and t is at most `last` (m,);
-    `nearest` (m,) bounds its nearness; one `in_clip` (m,) surely is in the clip range.
-    `ends` (2, 3 m) are the vertices of edges: of partners, in the same order. `side` (3 m,) is on
-    which side of each its face is, as `turn`: 1 is to the right.
-    `turn` (m,) is the side that the camera sees: 1 the back,
-    -1 the front, 0 none. That is the sign of d . n for rays d that meet it, n = (b - a) x (c - a).
+    `low`, `high` (2, m) enclose each face on the film, `near`, `far` (m,) its depth; t is at most
+    `last` (m,); `nearest` (m,) bounds its nearness; one `in_clip` (m,) surely is in the clip range.
+    `turn` (m,) is the side that the camera sees: 1 the back, -1 the front, 0 none. That is the sign
+    of d . n for rays d that meet it, n = (b - a) x (c - a). `ends` (2, 3 m) are edges' vertices: of
+    partners, in the same order; `side` (3 m,) is where their faces are: 1, as `turn`, is the right.
     `may_show` (m,) is False for what is edge-on, not finite, or outside the clip range or region.
     """
 

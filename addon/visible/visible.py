@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from ..arrays import Bools, Bytes, Floats, Index, parts
+from ..arrays import Bools, Floats, Index, parts
 from ..certified.any_rays import decide
 from ..certified.arithmetic import sound_steps
 from ..methods import Method
@@ -18,11 +16,11 @@ from ..tracer.settings import Settings
 from .cells import TOGETHER, TOP, Cells, behind_planes, finer, quarters, scale_of
 from .cover import Cover
 from .faces import Faces
+from .found import HIDDEN, SEEN, UNDECIDED, Visible
 from .hiding import patches
 from .points import points_of
 from .sights import Sights
 
-HIDDEN, SEEN, UNDECIDED = 0, 1, 2
 LIMIT = 1e-6  # square pixels
 WORK = 1 << 24  # pairs of faces that are compared, and of edges and faces
 _ROOM = 2.0**-8  # pixels around what may be seen, so that more than a corner is there
@@ -30,31 +28,6 @@ _TOGETHER = 1 << 12  # pairs of faces that are compared in one step
 _CELLS = 256  # of a face, that are divided
 _FINER = 12  # times that cells of a pixel are divided
 _TRIES = 6
-
-
-@dataclass(frozen=True, eq=False)
-class Visible:
-    """What a camera sees of the m faces of a scene.
-
-    Parameters
-    ----------
-    seen : (m,) uint8
-        HIDDEN, SEEN or UNDECIDED.
-    witness : (m, 2) float64
-        A film position of each face that is seen, in pixels: its ray sees the face. Else NaN.
-    area : (m,) float64
-        Of a face that is undecided, the most that may be seen of it, in square pixels. Else 0.
-    behind : (m,) bool
-        Whether a face that is seen shows its back, where its corners turn to the right.
-    start : (k + 1,) int
-        The first face of each of the scene's instances.
-    """
-
-    seen: Bytes
-    witness: Floats
-    area: Floats
-    behind: Bools
-    start: Index
 
 
 def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
