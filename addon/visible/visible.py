@@ -25,7 +25,7 @@ LIMIT = 1e-6  # square pixels
 WORK = 1 << 24  # pairs of faces that are compared, and of edges and faces
 _ROOM = 2.0**-8  # pixels around what may be seen, so that more than a corner is there
 _TOGETHER = 1 << 12  # pairs of faces that are compared in one step
-_CELLS = 256  # of a face, that are divided
+_CELLS = 64  # of a face, that are divided
 _FINER = 12  # times that cells of a pixel are divided
 _TRIES = 6
 
@@ -190,20 +190,21 @@ class _Search:
             self.seen[own[self.area[own] == 0]] = HIDDEN
 
     def _covers(self, face: Index, low: Floats, high: Floats) -> Work[Bools]:
-        """Look through the middles of n boxes; return which of them hide all of the faces."""
+        """Return in which of n boxes faces are hidden; look through the middles of others."""
         covered = ~(low < high).all(axis=0)
         found = self._faces.within(face, low, high)
         covered |= found.beside | self._faces.clip.outside(found.least, found.most)
         rows = np.flatnonzero(~covered)
         at = (low + high) / 2
-        before, _ = yield from self._sights.look(at[:, rows], face[rows])
-        own = before == face[rows]
-        self._enter(face[rows[own]], at[:, rows[own]])
-        self._before.add(face[rows], before)
         which, base = self._before.tried(face[rows])
         which = rows[which]
         least = patches(self._faces, base, at[:, which], low[:, which], high[:, which])
         covered[which[least > found.most[which]]] = True
+        rows = np.flatnonzero(~covered)
+        before, _ = yield from self._sights.look(at[:, rows], face[rows])
+        own = before == face[rows]
+        self._enter(face[rows[own]], at[:, rows[own]])
+        self._before.add(face[rows], before)
         return covered | (self.seen[face] == SEEN)
 
     def _add(self, face: Index, before: Index) -> Work[None]:
