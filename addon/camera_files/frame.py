@@ -153,10 +153,15 @@ def pinhole(
     plain = np.eye(4)
     plain[:2, :2] = k[:2, :2] / ((fx,), (fy,))
     width, height = size
-    window = ViewWindow(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)
+    window = of_lens(fx, fy, cx, cy, width, height)
     # K is of OpenCV's camera space, and so is its skew.
     world = inverse(OPENCV @ plain @ depth @ OPENCV @ axes @ camera_from_world)
     return seen_from(world, window, size, name, projection, clip)
+
+
+def of_lens(fx: float, fy: float, cx: float, cy: float, width: float, height: float) -> ViewWindow:
+    """Return the view window of K's numbers in a picture of a size, all in pixels."""
+    return ViewWindow(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)
 
 
 def seen_from(

@@ -237,15 +237,16 @@ class Evidence:
         """Return the object in each unexplained pixel of the sample; NOTHING where unknown."""
         scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.unexplained_sampled))
         objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
+        none = np.full(len(shown.color), NOTHING, np.int32)
         if not shown.has_colors:
-            return np.full(len(shown.color), NOTHING, np.int32)
+            return none
         if shown.owners:
             of_owner = reversed(list(enumerate(shown.owners.instances[:-1])))
             first = {int(owner): n for n, owner in of_owner}
             return objects[[first.get(int(owner), nothing) for owner in shown.owners.pixels]]
         table, first_rows = np.unique(scene.color_table[:-1], axis=0, return_index=True)
         if not 0 < len(table) <= MOST_COLORS:
-            return np.full(len(shown.color), NOTHING, np.int32)
+            return none
         made = shown.made_of(table)
         apart = np.abs(shown.color[:, None, : made.shape[1]] - made).max(axis=-1)
         known, nearest = apart.min(axis=1) <= NEAR, first_rows[apart.argmin(axis=1)]

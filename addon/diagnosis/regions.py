@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Array, Bools, Bytes, Index, Places
+from ..arrays import Bools, Bytes, Index, Integers, Places
 from ..pictures.bounds import largest_within
 from ..pictures.identity import Identity
 from ..scene import Scene
@@ -117,37 +117,20 @@ def _region(y: Places, x: Places, shown: Sequence[Side], causes: Bytes | None) -
     return Region(left, bottom, *size, len(y), objects, cause)
 
 
-def labels(mask: Bools) -> Array:
-    """Label the 8-connected components of a mask, (h, w); pixels outside it get any label.
+def labels(mask: Bools) -> Integers:
+    """Label the 8-connected components of a mask, (h, w); pixels outside it get -1.
 
-    Runs of pixels that touch in neighbouring rows are linked.
+    A pixel takes the largest label beside it, and so do all that have its own (union-find).
     """
-    height, width = mask.shape
-    edges = np.zeros((height, width + 3), np.int8)
-    edges[:, 1 : width + 1] = mask
-    change = np.flatnonzero(np.diff(edges, axis=1).ravel())
-    start, end = change[::2], change[1::2]  # row * (width + 2) + column, the end exclusive
-    # Runs of the next row that begin no later than a run ends, and end no sooner than it begins.
-    first = np.searchsorted(end, start + (width + 2), "left")
-    last = np.searchsorted(start, end + (width + 2), "right")
-    many = np.maximum(last - first, 0)
-    above = np.repeat(np.arange(len(start)), many)
-    below = np.arange(many.sum()) + np.repeat(first - np.cumsum(many) + many, many)
-    label = np.append(_linked(len(start), above, below), 0)
-    rows, columns = np.divmod(np.arange(height * width), width)
-    run = np.searchsorted(start, rows * (width + 2) + columns, "right") - 1
-    return label[run].reshape(height, width)
-
-
-def _linked(count: int, one: Places, other: Places) -> Places:
-    """Return the smallest item that each item is connected with, (count,) (union-find)."""
-    lowest = np.arange(count)
+    label = np.full(mask.shape, -1, np.int32)
+    own = np.arange(np.count_nonzero(mask), dtype=np.int32)
     while True:
-        a, b = lowest[one], lowest[other]
-        apart = a != b
-        if not apart.any():
-            return lowest
-        one, other, a, b = one[apart], other[apart], a[apart], b[apart]
-        np.minimum.at(lowest, np.maximum(a, b), np.minimum(a, b))
-        while not np.array_equal(lowest, lowest[lowest]):
-            lowest = lowest[lowest]
+        label[mask] = own
+        near = largest_within(label, 1)[mask]
+        if np.array_equal(own, near):
+            return label
+        linked = own.copy()
+        np.maximum.at(linked, own, near)
+        while not np.array_equal(linked, linked[linked]):
+            linked = linked[linked]
+        own = linked

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -44,18 +45,19 @@ def numbers_of(values: Array) -> Floats:
     return np.asarray(every.reshape(values.shape[:2]), np.float64)
 
 
+def ids_of(own: Mapping[str, float], seen: Seen) -> Floats:
+    """Return the ids of what n pixels see, (n, 1); NaN of objects without one."""
+    table = np.array([own.get(name, np.nan) for name in seen.scene.objects])
+    return table[seen.scene.instance_objects[seen.instance]][:, None]
+
+
 def kind_of(own: Mapping[str, float], presumed: str = "") -> Kind:
     """Return the kind of ids in which objects have numbers of their own."""
-
-    def made(seen: Seen) -> Floats:
-        table = np.array([own.get(name, np.nan) for name in seen.scene.objects])
-        return table[seen.scene.instance_objects[seen.instance]][:, None]
-
     return Kind(
         "ids",
         "ids of objects",
         1,
-        made,
+        partial(ids_of, own),
         LAYERS,
         follows_t=False,
         empty=(),
@@ -76,7 +78,6 @@ def owners_of(
     pairs, count = np.unique(np.stack((seen, value.reshape(-1))), axis=1, return_counts=True)
     own = dict(known or {})
     blank = np.zeros(len(ids), bool)
-    right = 0
     taken = {*np.flatnonzero(np.isin(values, [*own.values()])).tolist()}
     given = set(range(len(scene.objects))) if own else set()
     for number in np.argsort(-count, kind="stable"):
@@ -85,15 +86,13 @@ def owners_of(
             continue
         given.add(thing)
         taken.add(of)
-        right += int(count[number])
         if thing == NOTHING:
             blank = ids == values[of]
         else:
             own[scene.objects[thing]] = float(values[of])
-    if known:
-        table = np.array([*(own.get(name, np.nan) for name in scene.objects), np.nan])
-        right += int((ids == table[seen]).sum())
-    return own, blank, right
+    table = np.array([*(own.get(name, np.nan) for name in scene.objects), np.nan])
+    right = (ids == table[seen]) | (blank & (seen == NOTHING))
+    return own, blank, int(right.sum())
 
 
 def named(path: Path, values: Array, numbers: Floats, scene: Scene) -> dict[str, float]:

@@ -85,7 +85,7 @@ def shown_otherwise(monkeypatch):
 
     def change(changed):
         real = compare_module._picture
-        picture = lambda pixels, owners, **more: real(changed(pixels), owners, **more)  # noqa: E731
+        picture = lambda pixels, **options: real(changed(pixels), **options)  # noqa: E731
         monkeypatch.setattr(compare_module, "_picture", picture)
 
     return change

@@ -12,10 +12,8 @@ from typing import Any
 import bpy
 from bpy.types import Depsgraph, Object
 
-from ...arrays import Colors
 from ...causes.case import Behind, Case
 from ...manifest import Effect, Manifest, Unmodelled
-from ...pictures.identity import Owners
 from ...pictures.picture import Picture
 from ...scene import SceneError
 from ..reading.colors import slot_materials
@@ -28,7 +26,7 @@ def behind(
     drawing: Drawing,
     case: Case,
     color_type: str,
-    made: Callable[[Colors, Owners | None], Picture],
+    made: Callable[..., Picture],
     identity: bool,
 ) -> Behind | None:
     """Return the case without objects that are seen through; None if there are none.
@@ -42,7 +40,7 @@ def behind(
     color_type : str
         The user's own shading, which chooses the alpha that counts.
     made : callable
-        Makes the picture of its pixels and their owners.
+        Makes the picture of its pixels, with their owners.
     identity : bool
         Whether to find each pixel's owner, too.
     """
@@ -58,7 +56,7 @@ def behind(
 
     try:
         drawn = plan.drawn(export_without, identity)
-        shown = made(drawn.pixels, drawn.owners)
+        shown = made(drawn.pixels, owners=drawn.owners)
         shown, manifest = with_what_draws_itself(drawn.drawing, shown, identity)
     except (SceneError, RuntimeError):  # nothing is left that could be seen
         return None

@@ -80,7 +80,7 @@ def gather_case(context: Context, **choices: Any) -> Case:
     exporting = _Export(plan, is_automatic)
     drawing, pixels, owners = plan.drawn(exporting, chosen.identity)
     made = partial(_picture, judge=judge, used=exporting.used, snapping=snapping)
-    shown = made(pixels, owners)
+    shown = made(pixels, owners=owners)
     later = _a_frame_later(drawing) if chosen.self_check else None
     shown, manifest = with_what_draws_itself(drawing, shown, chosen.identity)
     if there != _names(user):

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Array, Bools, Floats, Index, Places
+from ...pictures.bounds import largest_within
 from ...pictures.curves import FIT, FITTED_SHARE, candidates
 from ...pictures.metrics import boundary
 from ...pictures.picture import MAJORITY, Curve, Picture, straight
@@ -165,10 +166,7 @@ def _is_its_own(frame: Frame, picture: Picture, where: Bools) -> bool:
     if picture.at(where).known(frame.instance_index[where]).all():
         return True
     own = frame.object_index == frame.object_index[where][0]
-    near = own.copy()  # with its neighbours, however small they are
-    for axis in (0, 1):
-        for by in (-1, 1):
-            near |= np.roll(own, by, axis)
+    near = largest_within(own, 1)  # with its neighbours, however small they are
     shown, others = picture.color[where], frame.color[~own]
     shown = shown[:: -(-len(shown) // FEW)]
     others = np.concatenate((frame.color[near & ~own], others[:: -(-len(others) // ENOUGH) or 1]))

@@ -52,7 +52,7 @@ def coverage(probe: Probe, band: Floats) -> Work[Coverage]:
     found: list[tuple[Index, Floats, Floats, Hits]] = [none]
     for some in probe.chunks:
         corners = _around_centre(probe, some)
-        nearest, rim = nearest_to_origin(*corners)
+        nearest, rim = nearest_to_origin(corners)
         own = band[some.pixel]
         with np.errstate(invalid="ignore"):
             certain = (rim > own) | np.isnan(rim) | _thin(corners, own)
@@ -119,8 +119,8 @@ def _depth_of(sure: Hits, probe: Probe, pixel: Index, offset: Floats) -> Floats:
     return np.where(np.isnan(depth), own.t, depth)
 
 
-def nearest_to_origin(a: Array, b: Array, c: Array) -> tuple[Array, Array]:
-    """Return the point of each triangle (a, b, c), (2, n) each, that lies nearest to the origin.
+def nearest_to_origin(corners: Array) -> tuple[Array, Array]:
+    """Return the point of each triangle (3, 2, n) that lies nearest to the origin.
 
     Returns
     -------
@@ -129,21 +129,17 @@ def nearest_to_origin(a: Array, b: Array, c: Array) -> tuple[Array, Array]:
         Distance of the origin from the triangle's edges; negative where it lies outside. NaN where
         a corner is.
     """
-    best = np.zeros_like(a)
-    best_square = np.full(a.shape[1], np.inf)
-    sides = []
+    ends = np.roll(corners, -1, axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        for p, q in ((a, b), (b, c), (c, a)):
-            edge = q - p
-            length = (edge * edge).sum(axis=0)
-            along = np.where(length > 0, -(p * edge).sum(axis=0) / length, 0.0)
-            point = p + np.clip(along, 0, 1) * edge
-            square = (point * point).sum(axis=0)
-            nearer = square < best_square
-            best = np.where(nearer, point, best)
-            best_square = np.where(nearer, square, best_square)
-            sides.append(p[0] * q[1] - p[1] * q[0])
+        edges = ends - corners
+        length = (edges * edges).sum(axis=1)
+        along = np.where(length > 0, -(corners * edges).sum(axis=1) / length, 0.0)
+        points = corners + np.clip(along, 0, 1)[:, None] * edges
+        square = np.nan_to_num((points * points).sum(axis=1), nan=np.inf, posinf=np.inf)
+        sides = corners[:, 0] * ends[:, 1] - corners[:, 1] * ends[:, 0]
         inside = (np.min(sides, axis=0) > 0) | (np.max(sides, axis=0) < 0)
-    unknown = np.isnan(a + b + c).any(axis=0)
-    rim = np.sqrt(best_square) * np.where(inside, 1, -1)
-    return np.where(unknown, np.nan, np.where(inside, 0.0, best)), np.where(unknown, np.nan, rim)
+    best, nearest = square.min(axis=0), square.argmin(axis=0)
+    point = np.nan_to_num(np.take_along_axis(points, nearest[None, None], axis=0)[0])
+    unknown = np.isnan(corners).any(axis=(0, 1))
+    rim = np.sqrt(best) * np.where(inside, 1, -1)
+    return np.where(unknown, np.nan, np.where(inside, 0.0, point)), np.where(unknown, np.nan, rim)

@@ -58,10 +58,8 @@ def _supersampled(case: Case, guess: Mean) -> Case | None:
 def _mean_of_samples(colors: Colors, guess: Mean, evidence: Evidence) -> Colors:
     """Return the mean of n x n pixels, (h, w, 4), of a picture that is n times as large."""
     n, (height, width) = guess.n, evidence.unexplained.shape
-    total = np.zeros((height, width, 4))
-    for y, x in product(range(n), repeat=2):
-        total += guess.coding.into(colors[y::n, x::n])
-    return guess.coding.back(total / n**2).astype(np.float32)
+    coded = guess.coding.into(colors).astype(np.float64).reshape(height, n, width, n, 4)
+    return guess.coding.back(coded.mean(axis=(1, 3))).astype(np.float32)
 
 
 def _find_samples(evidence: Evidence) -> Work[list[Mean]]:

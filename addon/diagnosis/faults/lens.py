@@ -5,13 +5,13 @@ from __future__ import annotations
 from functools import partial
 from itertools import product
 
+from ...camera_files.frame import of_lens
 from .fault import Example, Fault, Option, options, ways, with_option
 from .film import SENSOR
 from .lens_changes import (
     aspect,
     fits,
     lengths,
-    of_lens,
     of_lenses,
     orthographic,
     other_border,

@@ -104,11 +104,6 @@ def other_border(camera: Camera) -> Camera:
     return replace(camera, region=Region(r.x0, camera.height - r.y1, r.x1, camera.height - r.y0))
 
 
-def of_lens(fx: float, fy: float, cx: float, cy: float, width: float, height: float) -> ViewWindow:
-    """Return the view window of K's numbers in a picture of a size, all in pixels."""
-    return ViewWindow(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)
-
-
 def of_lenses(of: Callable[..., ViewWindow], camera: Camera) -> Camera | None:
     """Give a camera another lens: `of` fx, fy, cx, cy, width, height."""
     if not camera.projection.is_linear:

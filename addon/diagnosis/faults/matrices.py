@@ -23,9 +23,20 @@ _SPACES = np.eye(4), OPENCV, LEFT_UP  # Blender's and OpenGL's; OpenCV's; PyTorc
 _AXES = "X", "Y", "Z"
 
 
-def _matrix(change: Change) -> Callable[[Camera], Camera]:
-    """Return a function that changes the matrix of a camera, world from camera."""
-    return lambda camera: replace(camera, world_from_camera=change(camera.world_from_camera))
+def _matrix(
+    change: Change, space: Array = _SPACES[0], inverse: bool = False
+) -> Callable[[Camera], Camera]:
+    """Return a function that changes the matrix of a camera, as it is in a camera space.
+
+    It is world from camera, or the `inverse`.
+    """
+
+    def changed(camera: Camera) -> Camera:
+        world = camera.world_from_camera @ space
+        world = _inverse(change(_inverse(world))) if inverse else change(world)
+        return replace(camera, world_from_camera=world @ space)
+
+    return changed
 
 
 def _mirrored(*signs: float) -> Change:
@@ -36,16 +47,8 @@ def _mirrored(*signs: float) -> Change:
 def _read_wrongly(change: Change) -> Iterator[Way]:
     """Yield how a matrix is changed in a file, in any camera space, and in either direction."""
     for space in _SPACES:
-        yield "", _matrix(partial(_in_world_from_camera, change, space))
-        yield "", _matrix(partial(_in_camera_from_world, change, space))
-
-
-def _in_world_from_camera(change: Change, space: Array, world: Array) -> Array:
-    return change(world @ space) @ space
-
-
-def _in_camera_from_world(change: Change, space: Array, world: Array) -> Array:
-    return _inverse(change(space @ _inverse(world))) @ space
+        yield "", _matrix(change, space)
+        yield "", _matrix(change, space, inverse=True)
 
 
 def _between(first: Array, last: Array, world: Array) -> Array:
@@ -55,10 +58,6 @@ def _between(first: Array, last: Array, world: Array) -> Array:
 
 def _inverse(matrix: Array) -> Array:
     return np.asarray(np.linalg.inv(matrix))
-
-
-def _inverted(space: Array, world: Array) -> Array:
-    return space @ _inverse(world) @ space
 
 
 def _transposed(matrix: Array) -> Array:
@@ -88,7 +87,7 @@ def _quarters() -> Iterator[Way]:
         for quarters in (1, 2, 3) if k else (2,):
             turn = np.linalg.matrix_power(_quarter(k), quarters)
             by = {1: "a quarter", 2: "half a turn", 3: "three quarters"}[quarters]
-            yield f"{by} about {axis}", _matrix(partial(_between, turn, np.eye(4)))
+            yield f"{by} about {axis}", _matrix(partial(np.matmul, turn))
 
 
 def _quarter(axis: int) -> Array:
@@ -179,7 +178,7 @@ MATRIX_FAULTS: tuple[Fault[Option], ...] = (
         "OpenCV and COLMAP store world-to-camera (the view matrix); Blender, and "
         "transforms.json of NeRF, camera-to-world.",
         "invert the view matrix once, not twice or never",
-        *ways(*(("", _matrix(partial(_inverted, space))) for space in _SPACES)),
+        *ways(*(("", _matrix(_inverse, space)) for space in _SPACES)),
         witness="isl-org/Open3D#1027",
     ),
     Fault(

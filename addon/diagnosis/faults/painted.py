@@ -20,8 +20,6 @@ from .processed import shades_apart
 from .surfaces import Surfaces, surfaces
 from .suspects import seen_instances
 
-ALL = 0.8  # of the colours, at least, that are others where all come from another source
-SEVERAL = 3  # colours, at least
 NAMED = 4  # objects
 
 
@@ -140,7 +138,7 @@ def other_source(evidence: Evidence) -> list[Painted]:
         each = zip(first, last - first + 1, strict=True)
         rows = np.concatenate([start + slot(np.arange(n), n) for start, n in each])
         out.append(with_table(scene, scene.color_table[rows], words=words))
-    if found is None or len(found.wrong) < SEVERAL or found.wrong.mean() < ALL:
+    if found is None or not found.nearly_all_wrong:
         return out
     if np.average(found.alike, weights=found.pixels) < FITTED_SHARE:
         return out

@@ -18,8 +18,6 @@ from ..evidence import Evidence
 from .fault import AnyFault, Effort, Fault, Numbers, unchanged
 from .surfaces import Surfaces, surfaces
 
-ALL = 0.8  # of the surfaces, at least, that are wrong
-SEVERAL = 3  # surfaces, at least
 RECOLORED = 0.3  # of white, coded: a surface that is off by more has another colour
 GREY = 0.01  # of white, coded: between the channels of a picture without hues
 ALIKE = 0.8  # the least correlation of the surfaces' colours with the traced ones
@@ -39,7 +37,7 @@ class Processed(Numbers):
 def _find(evidence: Evidence) -> list[Processed]:
     """Guess by how much colours are off, if nearly all surfaces are, each by its own amount."""
     found = surfaces(evidence)
-    if found is None or len(found.wrong) < SEVERAL or found.wrong.mean() < ALL:
+    if found is None or not found.nearly_all_wrong:
         return []
     apart = shades_apart(found.traced, found.shown)
     if apart is None:

@@ -74,9 +74,7 @@ def _unseen(evidence: Evidence) -> Floats:
 
 def _degrees(evidence: Evidence) -> Floats:
     """Return the turns right, up, roll that shift the picture by a pixel, (3, 3) degrees."""
-    camera, depth = evidence.case.scene.camera, _depth(evidence)
-    width, height = (v * camera.projection.scale(depth) / depth for v in pixel_size(camera))
-    return np.diag(np.degrees((width, height, 1 / radius(evidence))))
+    return np.degrees(_metres(evidence) / _depth(evidence))
 
 
 def _in_the_world(camera: Camera, *metres: float) -> str:

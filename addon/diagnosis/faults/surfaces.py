@@ -18,6 +18,8 @@ from ...tracer.hits import NOTHING
 from ..evidence import Evidence, spread
 
 MOST = 1 << 15  # sampled pixels of surfaces
+ALL = 0.8  # of the surfaces, at least, that are wrong where all are
+SEVERAL = 3  # surfaces, at least
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +32,11 @@ class Surfaces:
     wrong: Bools  # (k,) most of its pixels are unexplained
     alike: Floats  # (k,) the share of its pixels that show the median
     pixels: Index  # (k,) of the sample
+
+    @property
+    def nearly_all_wrong(self) -> bool:
+        """Whether they are several, and nearly all are wrong."""
+        return len(self.wrong) >= SEVERAL and bool(self.wrong.mean() >= ALL)
 
     def take(self, some: Bools | Index) -> Surfaces:
         """Return some of them."""

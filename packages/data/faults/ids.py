@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from reference_tracer.arrays import Floats
 from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
@@ -15,6 +15,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import at_once
 from reference_tracer.wording import listed
 
+from ..ids import ids_of
 from ..kind import Data, Turn
 from ..seen import Seen
 from .turned import Turned, data_fault, data_of, picture_of
@@ -46,8 +47,7 @@ def _turned(own: dict[str, float]) -> Turn:
     """Return what gives objects other ids."""
 
     def turn(made: Floats, seen: Seen) -> Floats:
-        table = np.array([own.get(name, np.nan) for name in seen.scene.objects])
-        new = table[seen.scene.instance_objects[seen.instance]][:, None]
+        new = ids_of(own, seen)
         return np.where(np.isnan(new), made, new)
 
     return turn
@@ -102,14 +102,12 @@ def _mixed(evidence: Evidence) -> list[Mended]:
         if same.any():
             raw[made[..., 0] == number] = data.raw[same][0]
     rows, columns = np.nonzero(evidence.unexplained)
-    held, own = data.raw[rows, columns], np.zeros(len(rows), bool)
-    low, high = (np.full((len(rows), raw.shape[2]), np.nan) for _ in range(2))
-    height, width = nothing.shape
-    for y, x in product(range(-_REACH, _REACH + 1), repeat=2):
-        beside = raw[np.clip(rows + y, 0, height - 1), np.clip(columns + x, 0, width - 1)]
-        low, high = np.fmin(low, beside), np.fmax(high, beside)
-        own |= (beside == held).all(axis=1)
-    between = ((low <= held) & (held <= high)).all(axis=1) & ~own
+    held, sides = data.raw[rows, columns][..., None, None], (2 * _REACH + 1,) * 2
+    wide = np.pad(raw, ((_REACH, _REACH), (_REACH, _REACH), (0, 0)), "edge")
+    around = sliding_window_view(wide, sides, (0, 1))[rows, columns]  # (n, c, y, x)
+    own = (around == held).all(axis=1).any(axis=(1, 2))
+    low, high = (of.reduce(around, (2, 3), keepdims=True) for of in (np.fmin, np.fmax))
+    between = ((low <= held) & (held <= high)).all(axis=(1, 2, 3)) & ~own
     if between.sum() < _LEAST:
         return []
     mixed = np.zeros_like(nothing)

@@ -14,8 +14,7 @@ BAND = 0.004  # pixels
 
 
 def test_a_corner_behind_the_eye_is_unknown():
-    a, b, c = np.array([[[0.0], [0]], [[1], [0]], [[np.nan], [1]]])
-    point, rim = nearest_to_origin(a, b, c)
+    point, rim = nearest_to_origin(np.array([[[0.0], [0]], [[1], [0]], [[np.nan], [1]]]))
     assert np.isnan(point).all() and np.isnan(rim).all()
 
 
@@ -23,7 +22,7 @@ def test_nearest_points_are_those_of_dense_samples_of_the_edges(rng):
     corners = rng.normal(size=(3, 2, 400)) + rng.normal(size=(1, 2, 400))
     corners[2, :, :20] = corners[1, :, :20]  # segments
     corners[:, :, 20:25] = corners[:1, :, 20:25]  # points
-    point, rim = nearest_to_origin(*corners)
+    point, rim = nearest_to_origin(corners)
     along = np.linspace(0, 1, 2001)[:, None, None]
     edges = [corners[i] + along * (corners[i - 1] - corners[i]) for i in range(3)]
     edge = np.min([np.linalg.norm(e, axis=1).min(axis=0) for e in edges], axis=0)
