@@ -176,7 +176,7 @@ def test_a_lower_face_of_the_same_outline_is_hidden():
 def test_what_pierces_the_face_before_it_is_hidden_behind_a_third(projection):
     low = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]
     tilted = [(-9, -9, -2), (9, -9, 2), (0, 9, 0)]
-    third = [(0.02, -9, 0.5), (0.01, 9, 0.5), (-9, 0, 0.5)]
+    third = [(0.09, -9, 0.5), (0.06, 9, 0.5), (-9, 0, 0.5)]
     found = judged(scene_of(triangles([low, tilted, third]), camera=camera(projection)))
     assert found.seen.tolist() == [HIDDEN, SEEN, SEEN]
 
