@@ -80,14 +80,19 @@ def hits_through(
     surfaces: Surfaces,
     clip: tuple[float, float],
     statistics: Statistics,
+    last: Floats | float = np.inf,
 ) -> Work[Hits]:
-    """Find the nearest hits as :func:`nearest_hits`, of surfaces and what is in a tree."""
+    """Find the nearest hits as :func:`nearest_hits`, of surfaces and what is in a tree.
+
+    What is in the tree is missed, perhaps, if t is larger than `last` (n,).
+    """
+    ends = np.broadcast_to(np.minimum(clip[1], last), rays.count)
     found = []
     for some in parts(rays.count, _RAYS):
         yield Progress(some.start / rays.count)
         own = rays.take(np.arange(some.start, some.stop))
         ladder = Ladder(own, surfaces, clip)
-        for pairs in tree.pairs(own, *clip):
+        for pairs in tree.pairs(own, clip[0], ends[some]):
             statistics.pairs_tested += len(pairs.pixel)
             ladder.test(pairs)
         found.append(result_of(ladder.hits(statistics)))

@@ -62,7 +62,7 @@ class BoxRays:
 
     @classmethod
     @np.errstate(all="ignore")  # what overflows drops nothing
-    def of(cls, rays: Rays, start: float, end: float) -> BoxRays:
+    def of(cls, rays: Rays, start: float, end: Floats | float) -> BoxRays:
         """Prepare finite rays, which meet what has start <= t <= end."""
         count = rays.count
         own = np.broadcast_to(rays.directions, (3, count))
@@ -78,7 +78,7 @@ class BoxRays:
             own == 0,
             (d < 0).astype(np.intp),
             np.ldexp(np.full(count, start), exponent),
-            np.ldexp(np.full(count, end), exponent),
+            np.ldexp(end, exponent),
         )
 
 

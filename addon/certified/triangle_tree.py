@@ -56,7 +56,7 @@ class TriangleTree:
         leaves = around(_boxes(found).reshape(6, -1, WIDE))
         return cls(found, order >= 0, Tree.of(leaves, np.arange(leaves.shape[1])))
 
-    def pairs(self, rays: Rays, start: float, end: float) -> Iterator[Pairs]:
+    def pairs(self, rays: Rays, start: float, end: Floats | float) -> Iterator[Pairs]:
         """Yield all pairs of n rays and a triangle that may meet with start <= t <= end."""
         prepared = BoxRays.of(rays, start, end)
         sheared = _Sheared.of(prepared)

@@ -6,13 +6,15 @@ corner of four cells of one pixel. A cell of level k is 2^k pixels wide.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..arrays import Array, Floats, Index, parts
 from ..certified.bounds import Fractions, plane_fractions
 from ..certified.rounding import rounding
 from ..certified.sweep.depth_buffer import ROUNDING, nearness
-from ..scene import Scene
+from ..scene import Region, Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.progress import Work
@@ -21,8 +23,30 @@ from .faces import Faces
 from .hiding import patches
 from .sights import numbers
 
+# The most rays through centres, in all and for each face: up to them, pixels are divided.
+_RAYS = 1 << 21
+_RAYS_OF_FACE = 64
 TOP = 7  # the level of the largest cells, which may be any number beside one another
 TOGETHER = 1 << 16  # cells that are looked at together
+
+
+def scale_of(scene: Scene) -> int:
+    """Return into how many pixels each is divided along its sides: a power of two."""
+    region = scene.camera.region
+    most = min(_RAYS, _RAYS_OF_FACE * scene.triangle_count)
+    scale = 1
+    while region.width * region.height * (2 * scale) ** 2 <= most:
+        scale *= 2
+    return scale
+
+
+def finer(scene: Scene, scale: int) -> Scene:
+    """Return a scene with more pixels. The rays through the film stay the same, to the bit."""
+    camera = scene.camera
+    r = camera.region
+    region = Region(scale * r.x0, scale * r.y0, scale * r.x1, scale * r.y1)
+    size = scale * camera.width, scale * camera.height
+    return replace(scene, camera=replace(camera, width=size[0], height=size[1], region=region))
 
 
 class Cells:
@@ -32,7 +56,7 @@ class Cells:
     cell, -inf where none does. `face`, `at` are what is seen, and a film position of each, (2, n).
     """
 
-    def __init__(self, scene: Scene, faces: Faces, hits: Hits) -> None:
+    def __init__(self, scene: Scene, faces: Faces, hits: Hits, depth: Floats) -> None:
         camera = scene.camera
         region = camera.region
         shape = region.height, region.width
@@ -47,7 +71,7 @@ class Cells:
         # Planes have numbers of their own here: they hide, too.
         plane = np.where(hits.instance >= len(scene.instances), -2 - hits.instance, NOTHING)
         name = np.where(name >= 0, name, plane).reshape(shape)
-        t = hits.t.reshape(shape)
+        t = depth.reshape(shape)
         least = nearness(camera, t, t, ROUNDING)[0]
         off = 0.0 if camera.projection.shares_direction else 2 * faces.film.ray_error
         least -= np.abs(least) * off
@@ -115,6 +139,13 @@ class Cells:
         which, number = spread(np.arange(len(some)), width * height)
         y, x = np.divmod(number, width[which])
         return level, which, np.stack((x, y)) + first[:, which]
+
+
+def quarters(cell: Index) -> Index:
+    """Return the cells of the next level in n cells (2, n), (2, 4 n)."""
+    x, y = 2 * cell
+    four = np.stack([(x + i, y + j) for j in (0, 1) for i in (0, 1)], axis=2)
+    return four.reshape(2, -1)
 
 
 def _of_corners(values: Array) -> Array:

@@ -28,9 +28,8 @@ class Cover:
         self.work = work
         none: Index = np.zeros(0, np.intp)
         self._tried = self._before = none  # sorted, of face f and what is before it, g: f m + g
-        self._face = self._edge = none
-        self._within = crossed(faces, none, none)[1]  # where edges are within their faces
-        self._covered = np.zeros(0, bool)
+        # Faces, and edges of what is before them that may not be covered: what is known, and new.
+        self._edges = [(none, none)]
 
     def holds(self, face: Index, own: Index) -> Bools:
         """Return whether `own` (n,) are known to be before faces (n,)."""
@@ -56,6 +55,16 @@ class Cover:
             new = self._new(self._enter(np.tile(face[good], 3), edge))
         return np.unique(np.concatenate(grown))
 
+    def tried(self, face: Index) -> tuple[Index, Index]:
+        """Return all that was tried before faces (n,): which of these, and the faces."""
+        return self._of(self._tried, face)
+
+    def _of(self, keys: Index, face: Index) -> tuple[Index, Index]:
+        """Return what keys have for faces (n,): which of these, and the other faces."""
+        first, last = np.searchsorted(keys, (face, face + 1) * np.array(self._faces.count))
+        which, number = spread(np.arange(len(face)), last - first)
+        return which, keys[first[which] + number] % self._faces.count
+
     def _new(self, keys: Index) -> Index:
         keys = np.sort(keys)
         keys = keys[np.diff(keys, prepend=-1) != 0]
@@ -66,14 +75,11 @@ class Cover:
         low, high = self._faces.box(edge)
         near = ((low <= self._high[:, face]) & (high >= self._low[:, face])).all(axis=0)
         face, edge = face[near], edge[near]
-        side, ends = crossed(self._faces, edge, face)
-        rows = np.flatnonzero(side == THROUGH)
-        self._face = np.concatenate((self._face, face[rows]))
-        self._edge = np.concatenate((self._edge, edge[rows]))
-        self._within = np.concatenate((self._within, ends[..., rows]), axis=2)
-        self._covered = np.concatenate((self._covered, np.zeros(len(rows), bool)))
-        mate = self._faces.beyond(edge[rows])
-        return (face[rows] * self._faces.count + mate)[mate >= 0]
+        rows = np.flatnonzero(crossed(self._faces, edge, face)[0] == THROUGH)
+        face, edge = face[rows], edge[rows]
+        self._edges.append((face, edge))
+        mate = self._faces.beyond(edge)
+        return (face * self._faces.count + mate)[mate >= 0]
 
     def gaps(self, some: Bools, tries: Index) -> Work[tuple[Index, Floats]]:
         """Find where faces that are `some` (m,) may be seen past an edge of what is before them.
@@ -81,76 +87,45 @@ class Cover:
         Returns the faces, and film positions (2, n): others after each of the `tries` (m,). A face
         without any is wholly covered, or not at all.
         """
-        rows = np.flatnonzero(some[self._face] & ~self._covered)
-        paired = self.holds(self._face[rows], self._faces.beyond(self._edge[rows]))
-        self._covered[rows[paired]] = True
-        rows = rows[~paired]
-        row = rows[:0]
+        face, edge = (np.concatenate(each) for each in zip(*self._edges, strict=True))
+        waits = ~some[face]
+        own = np.flatnonzero(~waits)
+        own = own[~self.holds(face[own], self._faces.beyond(edge[own]))]
+        found = [own[:0]]
         gap: Floats = np.zeros((2, 0))
-        for part in parts(len(rows), _TOGETHER):
-            own, longest = self._gaps(rows[part])
-            row, gap = np.append(row, own), np.append(gap, longest, axis=1)
+        for part in parts(len(own), _TOGETHER):
+            row, longest = self._gaps(face[own[part]], edge[own[part]])
+            found.append(own[part][row])
+            gap = np.append(gap, longest, axis=1)
             yield None
-        return self._past(row, gap, tries)
+        rows = np.concatenate(found)
+        waits[rows] = True
+        self._edges = [(face[waits], edge[waits])]
+        return self._past(face[rows], edge[rows], gap, tries)
 
-    def _gaps(self, rows: Index) -> tuple[Index, Floats]:
-        """Return edges that may not be covered, by their rows, and the longest such piece."""
+    def _gaps(self, face: Index, edge: Index) -> tuple[Index, Floats]:
+        """Return which edges may not be covered in their faces, and the longest such piece."""
         faces = self._faces
-        edge, face = self._edge[rows], self._face[rows]
-        first, last = np.searchsorted(self._before, (face, face + 1) * np.array(faces.count))
-        which, number = spread(np.arange(len(rows)), last - first)
-        own = self._before[first[which] + number] % faces.count
-        low, high = self._faces.box(edge)
-        near = ((low[:, which] <= faces.high[:, own]) & (high[:, which] >= faces.low[:, own])).all(
-            0
-        )
-        which, own = which[near], own[near]
+        which, own = self._of(self._before, face)
+        low, high = faces.box(edge)
+        near = (low[:, which] <= faces.high[:, own]) & (high[:, which] >= faces.low[:, own])
+        near = near.all(axis=0)
+        every = np.concatenate((which[near], np.arange(len(face))))
+        own = np.concatenate((own[near], face))
         self.work -= len(own)
-        side, ends = crossed(faces, edge[which], own)
-        good = (side == THROUGH) | ((side != 0) & (side == -faces.side(edge[which])))
-        need, needed = self._need(rows)
-        every = np.concatenate((which[good], np.flatnonzero(needed)))
-        ends = np.concatenate((ends[..., good], need[..., needed]), axis=2)
-        weight = np.where(np.arange(len(every)) < good.sum(), 1, -1)
-        row, gap = _below_zero(len(rows), every, ends, weight)
-        self._covered[rows] = True
-        self._covered[rows[row]] = False
-        return rows[row], gap
+        side, ends = crossed(faces, edge[every], own)
+        good = (side == THROUGH) | ((side != 0) & (side == -faces.side[edge[every]]))
+        weight = np.where(own == face[every], -1, 1)
+        return _below_zero(len(face), every[good], ends[..., good], weight[good])
 
-    def _need(self, rows: Index) -> tuple[Floats, Bools]:
-        """Return where edges are within their faces and the boxes, and whether they are at all."""
-        v = self._faces.vertices
-        face, points = self._face[rows], self._faces.ends(self._edge[rows])
-        constant, slope = self._faces.film.place
-        borders = []
-        for sign, box in ((1, self._low), (-1, self._high)):
-            for at, across in zip(box[:, face], (v.p[points], v.q[points]), strict=True):
-                moved = at * v.w[points]
-                room = constant + slope * v.size[points]
-                room += 2.0**-48 * (np.abs(across) + np.abs(moved))
-                borders.append(np.nan_to_num(sign * (across - moved) + room, nan=np.inf))
-        a, b = np.stack(borders, axis=1)
-        t = a / (a - b)
-        ends = self._within[..., rows]
-        met = np.stack(
-            (np.where(b > a, t, -np.inf).max(axis=0), -np.where(a > b, t, np.inf).min(0))
-        )
-        met[np.stack(((a > 0).all(axis=0), (b > 0).all(axis=0)))] = -np.inf
-        for number, sign in enumerate((1, -1)):
-            later = met[number] > np.nan_to_num(sign * ends[number, 0], nan=-np.inf)
-            ends[number, 0, later] = sign * met[number, later]
-            ends[number, 1:, later] = 2.0**-40, -1 - number
-        return ends, ((a > 0) | (b > 0)).all(axis=0)
-
-    def _past(self, row: Index, gap: Floats, tries: Index) -> tuple[Index, Floats]:
-        """Return faces, and film positions just past their edges, in gaps."""
+    def _past(self, face: Index, edge: Index, gap: Floats, tries: Index) -> tuple[Index, Floats]:
+        """Return faces, and film positions just past edges, in gaps."""
         faces = self._faces
-        face, edge = self._face[row], self._edge[row]
-        a, b = faces.points[:, faces.ends(edge)].swapaxes(0, 1)
+        a, b = faces.points[:, faces.ends[:, edge]].swapaxes(0, 1)
         share = _PLACES[tries[face] % len(_PLACES)]
         places = [gap[0] + part * (gap[1] - gap[0]) for part in (share, share + 0.01)]
         (x, y), (x1, y1) = (film_of(faces.film.camera, a + t * (b - a))[:2] for t in places)
-        size = faces.side(edge) * _BESIDE / np.hypot(x1 - x, y1 - y)
+        size = faces.side[edge] * _BESIDE / np.hypot(x1 - x, y1 - y)
         at = np.stack((x - (y1 - y) * size, y + (x1 - x) * size))
         middle = (self._low[:, face] + self._high[:, face]) / 2
         return face, np.where(np.isfinite(at).all(axis=0), at, middle)

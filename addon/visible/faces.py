@@ -6,6 +6,7 @@ k m + f. The film is measured in pixels. What bounds a face there is `certified/
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +20,8 @@ from ..certified.sweep.depth_buffer import ClipRange
 from ..certified.sweep.edge_functions import set_up
 from ..certified.sweep.film import DELTA, Film
 from ..certified.sweep.vertices import Vertices
-from ..scene import Scene
+from ..scene import Camera, Scene
+from ..tracer.progress import Work
 from ..tracer.vector import cross, dot, transform_points
 
 EDGES = (1, 2), (2, 0), (0, 1)  # the corners of a face's edges, in their order
@@ -47,12 +49,13 @@ class Faces:
     """The m faces of a scene.
 
     `start` (k + 1,) is the first of each instance; `corners` (3, m) indexes `points` (3, v), in
-    world space. Corners with the same coordinates have the same number in `welded` (v,), and edges
-    with the same two ends the same `edge_name` (3 m,).
-    `low`, `high` (2, m) enclose each face on the film, and `near`, `far` (m,) its depth;
-    `nearest` (m,) bounds its nearness; one `in_clip` (m,) surely is in the clip range.
-    `turn` (m,) is the side that the camera sees: 1 the back,
-    -1 the front, 0 none. That is the sign of d . n for rays d that meet it, n = (b - a) x (c - a).
+    world space. Corners with the same coordinates have the same number in `welded` (v,), and those
+    that are seen as one point in `shown` (v,).
+    `low`, `high` (2, m) enclose each face on the film, `near`, `far` (m,) its depth; t is at most
+    `last` (m,); `nearest` (m,) bounds its nearness; one `in_clip` (m,) surely is in the clip range.
+    `turn` (m,) is the side that the camera sees: 1 the back, -1 the front, 0 none. That is the sign
+    of d . n for rays d that meet it, n = (b - a) x (c - a). `ends` (2, 3 m) are edges' vertices: of
+    partners, in the same order; `side` (3 m,) is where their faces are: 1, as `turn`, is the right.
     `may_show` (m,) is False for what is edge-on, not finite, or outside the clip range or region.
     """
 
@@ -73,20 +76,37 @@ class Faces:
         self.vertices = Vertices.empty(int(first[-1]), np.int32)
         self.film.enter(self.vertices, 0, self.points)
         self.welded = _welded(self.points)
-        self._enclose(scene)
-        self._pair_edges()
+        self.shown = self._shown(scene.camera)
 
-    def _enclose(self, scene: Scene) -> None:
+    @classmethod
+    def of(cls, scene: Scene) -> Work[Faces]:
+        """Return the faces of a scene, in steps."""
+        faces = cls(scene)
+        yield None
+        faces._enclose(scene.camera)
+        yield None
+        faces._find_turns()
+        yield None
+        faces._pair_edges()
+        return faces
+
+    def _shown(self, camera: Camera) -> Index:
+        """Return the numbers of points, the same if seen as one: known along an axis of space."""
+        across = camera.forward == 0
+        if camera.projection.shares_direction and across.sum() == 2:
+            return _welded(np.where(across[:, None], self.points, 0))
+        return self.welded
+
+    def _enclose(self, camera: Camera) -> None:
         """Find where each face may appear."""
         v = self.vertices
         constant, slope = self.film.depth_error
         own = constant + slope * v.size
         self.near = self.of_corners(v.depth - own).min(axis=0)
         self.far = self.of_corners(v.depth + own).max(axis=0)
-        camera = scene.camera
         room = 0.0 if camera.projection.shares_direction else 4 * self.film.ray_error
-        self.in_clip = self.near * (1 - room) > camera.clip_start
-        self.in_clip &= self.far * (1 + room) < camera.clip_end
+        self.last = self.far + room * np.abs(self.far)
+        self.in_clip = (self.near * (1 - room) > camera.clip_start) & (self.last < camera.clip_end)
         self.nearest = self.of_corners(v.nearest).max(axis=0, initial=-np.inf)
         self.nearest[~np.isfinite(self.of_corners(v.depth)).all(axis=0)] = np.inf
         region = camera.region
@@ -105,6 +125,8 @@ class Faces:
         self.may_show = self.of_corners(v.finite).all(axis=0)
         self.may_show &= (self.far >= camera.clip_start) & (self.near <= camera.clip_end)
         self.may_show &= (self.low < self.high).all(axis=0)
+
+    def _find_turns(self) -> None:
         self.turn = np.zeros(self.count, np.int8)
         some = np.flatnonzero(self.may_show)
         self.turn[some] = self.signs(*self.corners[:, some]).sign
@@ -120,50 +142,37 @@ class Faces:
         Each has one partner at most, or is its own. Where more meet, those of neighbours in the
         list of faces are partners.
         """
-        ends = self.welded[self.corners]
-        a = np.concatenate([ends[i] for i, _ in EDGES])
-        b = np.concatenate([ends[j] for _, j in EDGES])
-        self.forward = np.where(a < b, 1, -1)
+        first, last = (np.concatenate([self.corners[k] for k in end]) for end in np.array(EDGES).T)
+        a, b = self.welded[first], self.welded[last]
+        self.ends = np.where(a < b, (first, last), (last, first))
+        self.side = np.where(a < b, 1, -1) * np.tile(self.turn, 3)
         key = np.minimum(a, b) * np.int64(len(self.welded)) + np.maximum(a, b)
         every = np.arange(len(key))
         order = np.argsort(key.reshape(3, -1).T.ravel(), kind="stable")
         order = every.reshape(3, -1).T.ravel()[order]
         starts = np.diff(key[order], prepend=-1) != 0
-        name = np.cumsum(starts) - 1
-        self.edge_name = np.empty_like(every)
-        self.edge_name[order] = name
-        second = np.flatnonzero((every - np.flatnonzero(starts)[name]) % 2 == 1)
+        first = np.flatnonzero(starts)[np.cumsum(starts) - 1]
+        second = np.flatnonzero((every - first) % 2 == 1)
         self.mate = every.copy()
         self.mate[order[second]] = order[second - 1]
         self.mate[order[second - 1]] = order[second]
 
-    def ends(self, edge: Index) -> Index:
-        """Return the two vertices of edges, (2, ...): of partners, in the same order."""
-        k, face = np.divmod(edge, self.count)
-        first, last = np.array(EDGES).T[:, k]
-        forward = self.forward[edge] > 0
-        return self.corners[np.where(forward, (first, last), (last, first)), face]
-
-    def side(self, edge: Index) -> Index:
-        """Return on which side of edges their faces are, (n,), as `turn`: 1 is to the right."""
-        return self.forward[edge] * self.turn[edge % self.count]
-
     def beyond(self, edge: Index) -> Index:
         """Return the faces that continue those of edges on their other sides, (n,); -1 for none."""
         mate = self.mate[edge]
-        goes_on = (mate != edge) & (self.side(edge) == -self.side(mate))
+        goes_on = (mate != edge) & (self.side[edge] == -self.side[mate])
         return np.where(goes_on, mate % self.count, -1)
 
     def box(self, edge: Index) -> tuple[Floats, Floats]:
         """Return boxes of the film around edges, from low to high, (2, n) each."""
-        low, high = self.at[:, :, self.ends(edge)]
+        low, high = self.at[:, :, self.ends.take(edge, axis=1)]
         return low.min(axis=1), high.max(axis=1)
 
     def inside(self, edge: Index, point: Index) -> Signs:
         """Return on which side of edges of faces points are: positive within."""
-        first, last = self.ends(edge)
+        first, last = self.ends.take(edge, axis=1)
         found = self.signs(first, last, point)
-        turn = self.side(edge)
+        turn = self.side[edge]
         return Signs(found.sign * turn, found.value * turn, found.error)
 
     def signs(self, a: Index, b: Index, c: Index, before: Index | None = None) -> Signs:
@@ -172,26 +181,25 @@ class Faces:
         Or, if `before` is given: for an eye in those points.
         """
         points = np.broadcast_arrays(a, b, c, *(() if before is None else (before,)))
-        every = np.stack([each.ravel() for each in points])
-        own = self.welded[every]
-        same = np.zeros(own.shape[1], bool)
-        for k in range(1, len(own)):
-            same |= (own[k] == own[:k]).any(axis=0)
+        every = [each.ravel() for each in points]
         camera = self.film.camera
         parallel = before is None and camera.projection.shares_direction
         eye = camera.forward if parallel else camera.origin
         corners = [self.points.take(each, axis=1) for each in every]
-        v = np.broadcast_to(eye[:, None], (3, len(same))) if before is None else corners.pop()
+        v = np.broadcast_to(eye[:, None], (3, len(every[0]))) if before is None else corners.pop()
         sides = corners[1] - corners[0], corners[2] - corners[0]
         size = cross_magnitude(*np.abs(sides))
         arm = v if parallel else corners[0] - v
         value = dot(arm, cross(*sides))
         error = bound(dot(np.abs(arm), size), np.abs(arm))
-        sign = np.where(same, 0, np.sign(value))
-        doubt = np.flatnonzero(~same & (~(np.abs(value) > error) | ~np.isfinite(value)))
+        sign = np.sign(value)
+        doubt = np.flatnonzero(~(np.abs(value) > error) | ~np.isfinite(value))
+        own = [self.welded[each[doubt]] for each in every]
+        same = np.any([a == b for a, b in combinations(own, 2)], axis=0)
+        sign[doubt[same]] = value[doubt[same]] = error[doubt[same]] = 0
+        doubt = doubt[~same]
         doubtful = [corner[:, doubt] for corner in corners]
         sign[doubt] = _exact_signs(doubtful, v[:, doubt], parallel)
-        value[same] = error[same] = 0
         shape = points[0].shape
         return Signs(
             sign.astype(np.int8).reshape(shape), value.reshape(shape), error.reshape(shape)

@@ -70,7 +70,7 @@ def crossed(faces: Faces, edge: Index, face: Index) -> tuple[Index, Floats]:
         Where they begin and end, from 0 at the edge's first vertex to 1 at its last; the error of
         that; and a number of the edge or corner that is met there, NaN for none.
     """
-    first, last = faces.ends(edge)
+    first, last = faces.ends.take(edge, axis=1)
     corners = faces.corners[:, face]
     beside = faces.signs(first, last, corners).sign
     side = np.where((beside == 0).sum(axis=0) == 2, beside.sum(axis=0), 0)
@@ -79,10 +79,10 @@ def crossed(faces: Faces, edge: Index, face: Index) -> tuple[Index, Floats]:
     k, row = np.nonzero((side != 0) & (i * j <= 0) & (i != j))
     own = k * faces.count + face[row]
     a, b = (faces.inside(own, end[row]) for end in (first, last))
-    name = faces.edge_name[own] + len(faces.welded)
-    for corner in (_FIRST[k], _LAST[k]):
-        met = beside[corner, row] == 0
-        name = np.where(met, faces.welded[corners[corner, row]], name)
+    shown = faces.shown[np.stack([corners[ends[k], row] for ends in (_FIRST, _LAST)])]
+    name = shown.min(axis=0) * len(faces.shown) + shown.max(axis=0)
+    for corner, place in zip((_FIRST[k], _LAST[k]), shown, strict=True):
+        name = np.where(beside[corner, row] == 0, -1 - place, name)
     apart = a.value - b.value
     error = (a.error + b.error) * 4 / np.abs(apart) + 2.0**-50
     known = np.isfinite(error)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
 from ..arrays import Bools, Floats, Index
@@ -27,19 +25,12 @@ class Sights:
     def __init__(self, scene: Scene, faces: Faces, some: Bools) -> None:
         self._scene = scene
         self._faces = faces
-        self._tree = self._tree_of(some)
-
-    @cached_property
-    def _every(self) -> TriangleTree:
-        return self._tree_of(self._faces.may_show)
-
-    def _tree_of(self, some: Bools) -> TriangleTree:
         face = np.flatnonzero(some).astype(np.int32)  # here, all are of one instance
-        corners = self._faces.points[:, self._faces.corners[:, face]].swapaxes(0, 1)
-        return TriangleTree.made_of(WorldTriangles(corners, np.zeros_like(face), face))
+        corners = faces.points[:, faces.corners[:, face]].swapaxes(0, 1)
+        self._tree = TriangleTree.made_of(WorldTriangles(corners, np.zeros_like(face), face))
 
-    def look(self, at: Floats) -> Work[tuple[Index, Rays]]:
-        """Return the faces that rays through film positions (2, n) see, and the rays.
+    def look(self, at: Floats, face: Index) -> Work[tuple[Index, Rays]]:
+        """Return what rays through film positions (2, n) see, if not behind faces (n,); the rays.
 
         NOTHING for planes, and for nothing.
         """
@@ -50,7 +41,7 @@ class Sights:
         rays = Rays(origins, directions)
         planes = Surfaces.planes_of(self._scene)
         clip = camera.clip_start, camera.clip_end
-        return (yield from self._trace(self._tree, rays, planes, clip)), rays
+        return (yield from self._trace(rays, planes, clip, self._faces.last[face])), rays
 
     def before(self, face: Index, rays: Rays) -> Work[Index]:
         """Return the faces that are met by n rays last before the given ones, (n,), about."""
@@ -60,15 +51,13 @@ class Sights:
         known = np.flatnonzero(np.isfinite(t))
         back = Rays(rays.origins + t * rays.directions, -rays.directions).take(known)
         out = np.full(len(face), NOTHING)
-        if not len(known):
-            return out
-        out[known] = yield from self._trace(self._every, back, Surfaces(), (0.0, np.inf))
+        out[known] = yield from self._trace(back, Surfaces(), (0.0, np.inf), np.inf)
         return out
 
     def _trace(
-        self, tree: TriangleTree, rays: Rays, planes: Surfaces, clip: tuple[float, float]
+        self, rays: Rays, planes: Surfaces, clip: tuple[float, float], last: Floats | float
     ) -> Work[Index]:
-        hits = yield from hits_through(tree, rays, planes, clip, Statistics())
+        hits = yield from hits_through(self._tree, rays, planes, clip, Statistics(), last)
         return hits.triangle.astype(np.intp)
 
 

@@ -2,60 +2,32 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 
-from ..arrays import Bools, Bytes, Floats, Index, parts
+from ..arrays import Bools, Floats, Index, parts
 from ..certified.any_rays import decide
 from ..certified.arithmetic import sound_steps
 from ..methods import Method
 from ..rendering import hits as trace_hits
-from ..scene import Region, Scene, SceneError
-from ..tracer.hits import NOTHING, Statistics
+from ..scene import Scene, SceneError
+from ..tracer.hits import Statistics
 from ..tracer.progress import Progress, Work, result_of, scaled
 from ..tracer.settings import Settings
-from .cells import TOGETHER, TOP, Cells, behind_planes
+from .cells import TOGETHER, TOP, Cells, behind_planes, finer, quarters, scale_of
 from .cover import Cover
 from .faces import Faces
+from .found import HIDDEN, SEEN, UNDECIDED, Visible
+from .hiding import patches
 from .points import points_of
 from .sights import Sights
 
-HIDDEN, SEEN, UNDECIDED = 0, 1, 2
 LIMIT = 1e-6  # square pixels
 WORK = 1 << 24  # pairs of faces that are compared, and of edges and faces
-# The most rays through centres, in all and for each face: up to them, pixels are divided.
-_RAYS = 1 << 21
-_RAYS_OF_FACE = 64
 _ROOM = 2.0**-8  # pixels around what may be seen, so that more than a corner is there
 _TOGETHER = 1 << 12  # pairs of faces that are compared in one step
-_ROUNDS = 32  # of rays
-_TRIES = 6  # of them without anything new, for a face
-
-
-@dataclass(frozen=True, eq=False)
-class Visible:
-    """What a camera sees of the m faces of a scene.
-
-    Parameters
-    ----------
-    seen : (m,) uint8
-        HIDDEN, SEEN or UNDECIDED.
-    witness : (m, 2) float64
-        A film position of each face that is seen, in pixels: its ray sees the face. Else NaN.
-    area : (m,) float64
-        Of a face that is undecided, the most that may be seen of it, in square pixels. Else 0.
-    behind : (m,) bool
-        Whether a face that is seen shows its back, where its corners turn to the right.
-    start : (k + 1,) int
-        The first face of each of the scene's instances.
-    """
-
-    seen: Bytes
-    witness: Floats
-    area: Floats
-    behind: Bools
-    start: Index
+_CELLS = 64  # of a face, that are divided
+_FINER = 12  # times that cells of a pixel are divided
+_TRIES = 6
 
 
 def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
@@ -86,18 +58,20 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
             f"Camera '{camera.name}' is {camera.projection.name}: which faces are seen is decided "
             "for perspective and orthographic cameras"
         )
-    scale = _scale(scene)
-    scene = _finer(scene, scale)
+    scale = scale_of(scene)
+    scene = finer(scene, scale)
     yield Progress(None, "tracing the pixels' centres")
     hits = yield from trace_hits(scene, Settings(method=Method.CERTIFIED), Statistics())
     yield Progress(None, "looking behind what is seen")
-    faces = Faces(scene)
+    faces = yield from Faces.of(scene)
     yield None
-    cells = Cells(scene, faces, hits)
+    depth = hits.t
+    yield None
+    cells = Cells(scene, faces, hits, depth)
     yield from cells.join(faces)
     search = _Search(scene, faces, limit * scale**2, work)
     yield from search.bound(cells)
-    yield from scaled(search.steps(), 0.0, None, "looking behind what is seen")
+    yield from scaled(search.steps(cells), 0.0, None, "looking behind what is seen")
     seen = np.flatnonzero(search.seen == SEEN)
     behind = np.zeros(faces.count, bool)
     behind[seen] = faces.turn[seen] > 0
@@ -108,25 +82,6 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
         behind,
         faces.start,
     )
-
-
-def _scale(scene: Scene) -> int:
-    """Return into how many pixels each is divided along its sides: a power of two."""
-    region = scene.camera.region
-    most = min(_RAYS, _RAYS_OF_FACE * scene.triangle_count)
-    scale = 1
-    while region.width * region.height * (2 * scale) ** 2 <= most:
-        scale *= 2
-    return scale
-
-
-def _finer(scene: Scene, scale: int) -> Scene:
-    """Return a scene with more pixels. The rays through the film stay the same, to the bit."""
-    camera = scene.camera
-    r = camera.region
-    region = Region(scale * r.x0, scale * r.y0, scale * r.x1, scale * r.y1)
-    size = scale * camera.width, scale * camera.height
-    return replace(scene, camera=replace(camera, width=size[0], height=size[1], region=region))
 
 
 class _Search:
@@ -158,12 +113,11 @@ class _Search:
         for level in range(TOP, -1, -1):
             own = start[which] == level
             face = np.concatenate((np.repeat(face, 4), some[which[own]]))
-            x, y = 2 * cell
-            four = np.stack([(x + i, y + j) for j in (0, 1) for i in (0, 1)], axis=2)
-            cell = np.concatenate((four.reshape(2, -1), new[:, own]), axis=1)
+            cell = np.concatenate((quarters(cell), new[:, own]), axis=1)
+            rows = np.flatnonzero(faces.nearest[face] >= cells.hidden[level][cell[1], cell[0]])
+            face, cell = face[rows], cell[:, rows]
             low, high = cells.film(level, cell)
             met = ((low <= faces.high[:, face]) & (high >= faces.low[:, face])).all(axis=0)
-            met &= ~(faces.nearest[face] < cells.hidden[level][cell[1], cell[0]])
             near = np.flatnonzero(met)
             left = [near[:0]]
             for part in parts(len(near), TOGETHER):
@@ -172,6 +126,7 @@ class _Search:
                 yield None
             rows = np.concatenate(left)
             face, cell = face[rows], cell[:, rows]
+        self._finest = face, cell
         low, high = cells.film(0, cell)
         low = np.maximum(low - _ROOM, faces.low[:, face])
         high = np.minimum(high + _ROOM, faces.high[:, face])
@@ -191,7 +146,7 @@ class _Search:
         missed = found.beside | faces.clip.outside(found.least, found.most)
         return ~(missed | (found.most < farthest))
 
-    def steps(self) -> Work[None]:
+    def steps(self, cells: Cells) -> Work[None]:
         """Look for each face, and for what is before it, until nothing new is found."""
         faces = self._faces
         self.seen[(self.seen == UNDECIDED) & (self.area == 0)] = HIDDEN
@@ -199,15 +154,58 @@ class _Search:
         self._before = Cover(faces, self._low, self._high, self._work)
         self._covered = np.zeros(faces.count, bool)  # in one ray
         self._tries = np.zeros(faces.count, np.intp)  # since more was known of what is before it
-        self._cut = np.arange(faces.count)  # what each face may cross, or itself
         self._left = self.seen == UNDECIDED
-        rays: tuple[Index, Floats] = np.zeros(0, np.intp), np.zeros((2, 0))
-        for _ in range(_ROUNDS):
+        some = np.flatnonzero(self._left)
+        middle = points_of(faces, some, self._low[:, some], self._high[:, some])
+        rays: tuple[Index, Floats] = some, middle
+        while len(rays[0]) and self._before.work > 0:
             yield None
             rays = yield from self._round(*rays)
-            if not self._left.any() or self._before.work <= 0:
-                break
+        yield from self._divide(cells)
         self.area[self.seen != UNDECIDED] = 0
+
+    def _divide(self, cells: Cells) -> Work[None]:
+        """Divide the cells of faces that are left, and see whether each is covered by one patch."""
+        face, cell = self._finest
+        for level in range(-1, -_FINER - 1, -1):
+            left = (self.seen == UNDECIDED) & (self.area > self._limit)
+            left &= np.bincount(face, minlength=len(left)) < _CELLS
+            rows = np.flatnonzero(left[face])
+            if not len(rows) or self._before.work <= 0:
+                break
+            face, cell = np.repeat(face[rows], 4), quarters(cell[:, rows])
+            own = np.unique(face)
+            low, high = cells.film(level, cell)
+            low = np.maximum(low, self._low[:, face])
+            high = np.minimum(high, self._high[:, face])
+            still = [face[:0]]
+            for part in parts(len(face), _TOGETHER):
+                covered = yield from self._covers(face[part], low[:, part], high[:, part])
+                still.append(part.start + np.flatnonzero(~covered))
+            rows = np.concatenate(still)
+            face, cell = face[rows], cell[:, rows]
+            self.area[own] = 0
+            np.add.at(self.area, face, np.prod((high - low)[:, rows], axis=0))
+            own = own[self.seen[own] == UNDECIDED]
+            self.seen[own[self.area[own] == 0]] = HIDDEN
+
+    def _covers(self, face: Index, low: Floats, high: Floats) -> Work[Bools]:
+        """Return in which of n boxes faces are hidden; look through the middles of others."""
+        covered = ~(low < high).all(axis=0)
+        found = self._faces.within(face, low, high)
+        covered |= found.beside | self._faces.clip.outside(found.least, found.most)
+        rows = np.flatnonzero(~covered)
+        at = (low + high) / 2
+        which, base = self._before.tried(face[rows])
+        which = rows[which]
+        least = patches(self._faces, base, at[:, which], low[:, which], high[:, which])
+        covered[which[least > found.most[which]]] = True
+        rows = np.flatnonzero(~covered)
+        before, _ = yield from self._sights.look(at[:, rows], face[rows])
+        own = before == face[rows]
+        self._enter(face[rows[own]], at[:, rows[own]])
+        self._before.add(face[rows], before)
+        return covered | (self.seen[face] == SEEN)
 
     def _add(self, face: Index, before: Index) -> Work[None]:
         for part in parts(len(face), _TOGETHER):
@@ -215,13 +213,9 @@ class _Search:
             yield None
 
     def _round(self, face: Index, at: Floats) -> Work[tuple[Index, Floats]]:
-        """Trace rays past edges, and others; decide what they tell, and return the next ones."""
+        """Trace rays, decide what they tell, and return the next ones: past edges."""
         faces, cover, covered, tries = self._faces, self._before, self._covered, self._tries
-        some = np.flatnonzero(self._left & (~covered | (tries > 0)))
-        box = self._low[:, some], self._high[:, some]
-        new = points_of(faces, some, self._cut[some], *box, tries[some] // 2)
-        face, at = np.concatenate((face, some)), np.concatenate((at, new), axis=1)
-        before, rays = yield from self._sights.look(at)
+        before, rays = yield from self._sights.look(at, face)
         # A ray along the picture's border may see what is wholly beyond it.
         inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
         own = (before == face) & inside
@@ -233,7 +227,6 @@ class _Search:
         yield from self._add(face, before)
         # What is before the face, but not all of it: another one may be, right before it.
         rows = np.flatnonzero(~cover.holds(face, before))
-        self._cut[face[rows]] = np.where(before[rows] == NOTHING, face[rows], before[rows])
         before[rows] = yield from self._sights.before(face[rows], rays.take(rows))
         yield from self._add(face[rows], before[rows])
         rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))

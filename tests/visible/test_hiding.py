@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.visible.faces import Faces
 from reference_tracer.visible.hiding import patches
 from reference_tracer.visible.points import points_of
@@ -20,7 +21,7 @@ def test_a_face_nearly_edge_on_is_beside_no_cell_that_it_covers():
     points[..., 2] += 4
     points += random.normal(size=points.shape) * 2.0**-52
     scene = scene_of(triangles(points), camera=camera())
-    faces = Faces(scene)
+    faces = result_of(Faces.of(scene))
     some = np.flatnonzero(faces.may_show)
     at = random.uniform(0, 16, (2, len(some)))
     missed = faces.within(some, at, at + 2.0**-6).beside
@@ -35,12 +36,11 @@ def test_what_is_traced_for_a_cell_is_in_it():
     tip = random.uniform(-1, 1, (1, 2, 200))
     corners = np.concatenate((tip, tip + random.normal(size=(2, 2, 200))))
     points = np.concatenate((corners, np.zeros((3, 1, 200))), axis=1).transpose(2, 0, 1)
-    faces = Faces(scene_of(triangles(points), camera=camera(ORTHOGRAPHIC)))
+    faces = result_of(Faces.of(scene_of(triangles(points), camera=camera(ORTHOGRAPHIC))))
     every = np.arange(200)
     low = (tip[0] + 2) * 4 + random.choice([-1e-11, 1e-11], (2, 200))
-    for number in range(4):
-        at = points_of(faces, every, every, low, low + 0.25, every * 0 + number)
-        assert (low <= at).all() and (at <= low + 0.25).all()
+    at = points_of(faces, every, low, low + 0.25)
+    assert (low <= at).all() and (at <= low + 0.25).all()
 
 
 def test_joined_faces_cover_a_box_but_none_with_a_hole():
@@ -50,7 +50,7 @@ def test_joined_faces_cover_a_box_but_none_with_a_hole():
     film = 4 + np.concatenate([corners + half for half in halves])  # in pixels
     hole, film = film[30], np.delete(film, 30, axis=0)
     points = np.concatenate((film / 4 - 2, np.zeros((len(film), 3, 1))), axis=2)
-    faces = Faces(scene_of(triangles(points), camera=camera(ORTHOGRAPHIC)))
+    faces = result_of(Faces.of(scene_of(triangles(points), camera=camera(ORTHOGRAPHIC))))
     some = random.integers(0, len(film), 400)
     low = film[some].mean(axis=1).T
     size = random.uniform(0, 3, low.shape)

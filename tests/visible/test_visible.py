@@ -163,6 +163,24 @@ def test_coplanar_faces():
         assert found.seen.tolist() == [SEEN, HIDDEN]
 
 
+def test_a_lower_face_of_the_same_outline_is_hidden():
+    """Though above the upper one there is another whose edges reach over it."""
+    outline = [(-1, -1), (1, -1), (0, 1)]
+    upper, lower = ([(x, y, z) for x, y in outline] for z in (0.5, 0.0))
+    above = [(-0.2, -0.6, 0.9), (1.5, -0.6, 0.9), (0.2, 0.1, 0.9)]
+    found = judged(scene_of(triangles([upper, lower, above]), camera=camera(ORTHOGRAPHIC)))
+    assert found.seen.tolist() == [SEEN, HIDDEN, SEEN]
+
+
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+def test_what_pierces_the_face_before_it_is_hidden_behind_a_third(projection):
+    low = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]
+    tilted = [(-9, -9, -2), (9, -9, 2), (0, 9, 0)]
+    third = [(0.09, -9, 0.5), (0.06, 9, 0.5), (-9, 0, 0.5)]
+    found = judged(scene_of(triangles([low, tilted, third]), camera=camera(projection)))
+    assert found.seen.tolist() == [HIDDEN, SEEN, SEEN]
+
+
 def test_both_sides_are_told_apart():
     front = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]
     for own in (camera(), camera(ORTHOGRAPHIC)):

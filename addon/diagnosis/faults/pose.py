@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -171,13 +172,16 @@ def posing(*changes: Change, exact: Values = (), kept: bool = False) -> dict[str
         ]
         return [*out, *(guess for guess in found if guess.change in changes)]
 
-    def find_copies(evidence: Evidence) -> Work[list[Posed]]:
-        out: list[Posed] = []
-        for name in evidence.suspects[:TRIED]:
-            if looked := (yield from Looked.of(evidence, name, kept)):
-                for change, starts in (yield from _far(looked, changes)).items():
-                    guess, _ = yield from _climbed(looked, change, starts, FIRST * looked.width)
-                    out += [guess] if guess else []
-        return out
+    looks = partial(_copies, changes) if kept else find
+    return {"assume": assume, "find": looks, "refine": refine}
 
-    return {"assume": assume, "find": find_copies if kept else find, "refine": refine}
+
+def _copies(changes: tuple[Change, ...], evidence: Evidence) -> Work[list[Posed]]:
+    """Return the changes found of second copies of suspects."""
+    out: list[Posed] = []
+    for name in evidence.suspects[:TRIED]:
+        if looked := (yield from Looked.of(evidence, name, True)):
+            for change, starts in (yield from _far(looked, changes)).items():
+                guess, _ = yield from _climbed(looked, change, starts, FIRST * looked.width)
+                out += [guess] if guess else []
+    return out

@@ -111,7 +111,7 @@ GROUPS = {
     "scaled": "several are hit that are scaled by 1/8 to 8",
     "behind": "what is nearest lies behind the ray's origin",
     "none": "all are passed by, or lie behind",
-    "large": "several are hit that are a hundred times as large, and some lie behind",
+    "large": "several are hit that are a hundred times as large",
     "tied": "two objects are one: either is right",
 }
 
