@@ -95,13 +95,10 @@ def test_what_takes_long_is_known_before(heavy, monkeypatch):
     with counted() as found:
         assert slowest.slowest(layer) == "Heavy"
     assert found == [0]
-    other = bpy.data.objects["Heavy"].copy()
-    bpy.context.collection.objects.link(other)
-    layer.update()
-    third = other.copy()
-    bpy.context.collection.objects.link(third)
-    layer.update()
-    assert slowest.slowest(layer) == ""  # none of the three is the one
+    for _ in range(7):  # on a busy machine one of three may well take half of the time
+        bpy.context.collection.objects.link(bpy.data.objects["Heavy"].copy())
+        layer.update()
+    assert slowest.slowest(layer) == ""  # none of the eight is the one
 
 
 def test_what_takes_long_is_said_before_each_frame(heavy, monkeypatch, tmp_path):

@@ -23,8 +23,6 @@ from reference_tracer_visible import HIDDEN, SEEN, UNDECIDED, visible
 
 from .arrangement import seen_areas
 
-pytestmark = pytest.mark.slow
-
 PERSPECTIVE, ORTHOGRAPHIC = PROJECTIONS["perspective"], PROJECTIONS["orthographic"]
 GREY = np.full((1, 4), 0.5, np.float32)
 
@@ -88,6 +86,7 @@ def check_witnesses(scene, found):
         assert ray.name == (instance, face - found.start[instance])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
 @pytest.mark.parametrize("seed", range(5))
 def test_lattice(projection, seed):
