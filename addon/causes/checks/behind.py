@@ -24,12 +24,13 @@ def check(pixels: OpenPixels, find: Callable[[Case, Frame], Work[Causes]]) -> Wo
 
     `find` finds the causes of a case and what was traced of it.
     """
-    behind, frame, out = pixels.case.behind, pixels.frame, pixels.out
+    behind = pixels.case.behind
+    out = pixels.out
     if behind is None:
         return
-    objects = enumerate(frame.scene.objects)
+    objects = enumerate(pixels.frame.scene.objects)
     left_out = [number for number, name in objects if name in behind.left_out]
-    judged = np.isin(frame.object_index, left_out)
+    judged = np.isin(pixels.frame.object_index, left_out)
     if not judged.any():
         return
     traced = Frame.empty(behind.case.scene)
