@@ -19,6 +19,7 @@ import numpy as np
 from ...arrays import Colors
 from ...causes.checks.unmodelled import covered
 from ...manifest import Effect, Manifest, Unmodelled
+from ...pictures.certificate import CameraCertificate
 from ...pictures.drawn_over import DrawnOver
 from ...pictures.identity import MOST_OBJECTS, NOTHING, Owners, colors_of, decode
 from ...pictures.palette import VIEWPORT, Palette
@@ -94,6 +95,8 @@ class Drawing(NamedTuple):
     plan: Plan
     exported: Scene
     manifest: Manifest
+    used: dict[str, Any]  # the settings that it is drawn with
+    certificate: CameraCertificate | None = None  # how close its camera is to Blender's
 
     def again(self, features: Sequence[Unmodelled] = (), identity: bool = False) -> Drawn:
         """Draw the scene anew, without some features that draw themselves."""

@@ -65,7 +65,7 @@ def gather_against(
     palette, scene, manifest = exported_in(context, colors)
     judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
     layer = context.view_layer.name
-    drawing = Drawing(Plan(context.scene, layer, judge, palette=palette), scene, manifest)
+    drawing = Drawing(Plan(context.scene, layer, judge, palette=palette), scene, manifest, {})
     shown = picture if isinstance(picture, Picture) else picture(drawing)
     return Case(
         scene,
