@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -189,6 +190,17 @@ def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Index | slice
         return
     for mesh in np.unique(of):
         yield scene.meshes[mesh], np.flatnonzero(of == mesh)
+
+
+def box_corners(bounds: Floats, world_from_object: Floats) -> Vectors:
+    """Return the corners of k boxes in world space, (8, 3, k).
+
+    `bounds` (2, 3, k) has the lowest and the highest corner of each, in its object's space;
+    `world_from_object` is (4, 4, k).
+    """
+    with np.errstate(over="ignore", invalid="ignore"):  # what overflows may be anywhere
+        ends = product((0, 1), repeat=3)
+        return np.stack([transform_points(world_from_object, bounds[k, range(3)]) for k in ends])
 
 
 def reaches(scene: Scene) -> Floats:

@@ -48,6 +48,10 @@ from .given import gather_given
 from .open_file import Choices
 from .variants import variants
 
+# Pixels from a pixel's centre that Blender's anti-aliasing mixes. Workbench's samples lie within a
+# pixel and a half; what smooths their edges takes in the pixel beside.
+_FILTER_RADIUS = 2.0
+
 
 def gather_case(context: Context, **choices: Any) -> Case:
     """Export the context's scene and view layer, and have Blender draw them.
@@ -161,7 +165,7 @@ def _picture(
         Source(judge.name, bpy.app.version_string, settings=used),
         sampling=Sampling(
             judge.sample_radius,
-            0.0 if smooth == "OFF" else judge.filter_radius,
+            0.0 if smooth == "OFF" else _FILTER_RADIUS,
             snapping,
             judge.farthest,
             EMBREE if judge.traces_rays else RASTER,
