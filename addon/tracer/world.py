@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arrays import Array, Bools, Floats, Index, Integers
 from .camera import dual_axes, project
-from .vector import Arrays, Vectors, gather, transform_points
+from .vector import Arrays, Vectors, cross, gather, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Mesh, Scene
@@ -180,6 +180,19 @@ def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
                 local = mesh.vertices.take(corners[:, corner], axis=0).T
                 out[corner][:, rows] = transform_points(matrices, local)
     return out
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def planes_of(scene: Scene, instance: Index, triangle: Index) -> tuple[Vectors, Vectors]:
+    """Return a point and the textbook's normal of each named surface's plane, (3, n) each."""
+    points, normals = np.zeros((2, 3, len(instance)))
+    on_mesh = np.flatnonzero(instance < len(scene.instances))
+    p1, p2, p3 = world_corners(scene, instance[on_mesh], triangle[on_mesh])
+    points[:, on_mesh], normals[:, on_mesh] = p1, cross(p3 - p1, p2 - p1)
+    for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
+        which = instance == index
+        points[:, which], normals[:, which] = infinite.point[:, None], infinite.normal[:, None]
+    return points, normals
 
 
 def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Index | slice]]:

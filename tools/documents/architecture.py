@@ -52,7 +52,7 @@ blender/ui/long_work.py LongWork.invoke
             blender/reading/export.py export
           blender/drawing/drawings.py Plan.drawn
             blender/drawing/drawings.py Plan._drawn
-              blender/drawing/drawings.py _turns
+              blender/drawing/drawings.py turns
                 blender/drawing/picture.py picture
         comparison/comparing.py compared
           comparison/comparing.py trace_and_compare

@@ -77,7 +77,7 @@ class Plan:
     def _drawn(self, export: Export, identity: bool) -> Drawn:
         """Export and draw one evaluation."""
         with self.prepared() as (tmp, used):
-            return evaluated(tmp, self.judge, _turns(tmp, used, export, identity))
+            return evaluated(tmp, self.judge, turns(tmp, used, export, identity))
 
 
 def _is_changed(obj: Any) -> bool:
@@ -116,8 +116,8 @@ class Drawn(NamedTuple):
 Export: TypeAlias = Callable[[Any, dict[str, Any], Any], Drawing]
 
 
-def _turns(
-    tmp: bpy.types.Scene, used: dict[str, Any], export: Export, identity: bool
+def turns(
+    tmp: bpy.types.Scene, used: dict[str, Any], export: Export, identity: bool = False
 ) -> Turns[Drawn]:
     """Export an evaluation, have it drawn, and again in a colour for each object."""
     depsgraph = yield False
