@@ -10,7 +10,7 @@ import numpy as np
 from ...arrays import Bools, Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Plane, Region, ViewWindow
-from ...tracer.camera import pixel_size
+from ...tracer.camera import camera_rays
 from ...tracer.candidates import pixel_bounds
 from ...tracer.world import box_corners
 
@@ -18,15 +18,16 @@ BEYOND = 2  # pixels beyond the picture: a comparison looks half a pixel beside 
 MARGIN = 0.01  # of the clip range's ends, so that Blender's own clipping decides, in float32
 
 
-def volume_corners(camera: Camera) -> Floats:
+def _corners(camera: Camera) -> Floats:
     """Return the eight corners of the view volume, (8, 3) world space; bits: x, y, depth."""
-    camera = _linear(camera)
-    w = _window(camera)
-    out = []
-    for depth, y, x in product(_depths(camera), (w.bottom, w.top), (w.left, w.right)):
-        across = camera.projection.scale(depth) * (x * camera.right + y * camera.up)
-        out.append(camera.origin + across + depth * camera.forward)
-    return np.array(out)
+    if not camera.projection.is_linear:  # of a panorama a box that holds what it sees
+        end = camera.clip_end
+        window = ViewWindow(-end, end, -end, end)
+        camera = replace(camera, projection=ORTHOGRAPHIC, window=window, clip_start=-end)
+    across, up = ((-BEYOND, size + BEYOND) for size in (camera.width, camera.height))
+    y, x = np.array([*product(up, across)], np.float64).T
+    rays = camera_rays(camera, x, y)
+    return np.concatenate([rays.at(depth).T for depth in _depths(camera)])
 
 
 def outside(camera: Camera, bounds: Floats, world_from_object: Floats) -> Bools:
@@ -49,27 +50,10 @@ def outside(camera: Camera, bounds: Floats, world_from_object: Floats) -> Bools:
     return (x0 >= x1) | (y0 >= y1)
 
 
-def _linear(camera: Camera) -> Camera:
-    """Return a camera with a flat-sided view volume that holds this one's: of a panorama a box."""
-    if camera.projection.is_linear:
-        return camera
-    end = camera.clip_end
-    window = ViewWindow(-end, end, -end, end)
-    return replace(camera, projection=ORTHOGRAPHIC, window=window, clip_start=-end)
-
-
-def _window(camera: Camera) -> ViewWindow:
-    w = camera.window
-    x, y = pixel_size(camera)
-    return ViewWindow(
-        w.left - BEYOND * x, w.right + BEYOND * x, w.bottom - BEYOND * y, w.top + BEYOND * y
-    )
-
-
-def _depths(camera: Camera) -> tuple[float, float]:
-    start = camera.clip_start
-    end = camera.clip_end
-    return start - MARGIN * abs(start), end + MARGIN * abs(end)
+def _depths(camera: Camera) -> Floats:
+    """Return where the view volume begins and ends, (2,) metres."""
+    ends = np.array((camera.clip_start, camera.clip_end))
+    return ends + (-MARGIN, MARGIN) * np.abs(ends)
 
 
 def polygon(camera: Camera, plane: Plane) -> Floats:
@@ -78,7 +62,7 @@ def polygon(camera: Camera, plane: Plane) -> Floats:
     k is at most 6, and 0 where the plane misses the volume. The volume is somewhat larger than what
     is seen, so that the polygon's rim never is.
     """
-    corners = volume_corners(camera)
+    corners = _corners(camera)
     height = ((corners - plane.point) * plane.normal).sum(axis=1)
     points = []
     for a in range(8):
