@@ -38,8 +38,8 @@ def rows(out):
 def test_frames_and_cameras(saved, reftrace, tmp_path):
     out = tmp_path / "found.npz"
     for options, expected, frames in (
-        ((), {"Low": 0, "Lid": 2}, []),
-        (("--camera", "Beside"), {"Low": 0, "Lid": 0}, []),
+        ((), {"Low": 0, "Lid": 2}, [0]),
+        (("--camera", "Beside"), {"Low": 0, "Lid": 0}, [0]),
         (("--frames", "1-2"), {"Low": 0, "Lid": 2}, [1, 2]),
         (("--frames", "all"), {"Low": 2, "Lid": 2}, [1, 2, 3, 4]),
     ):
