@@ -72,10 +72,13 @@ def test_faces_in_edit_mode_as_they_are_edited(looking, build):
     """Unapplied edits count; what Edit Mode hides stays hidden, and hides nothing less."""
     cube, other = build.cube("Cube"), build.cube("Other", size=1, location=(0, 0, -3))
     edit(cube, other)
+    bpy.ops.mesh.select_mode(type="VERT")
     assert select_seen() == {"FINISHED"}
     assert faces(cube) == upwards(cube) and not any(faces(other))
     select_seen(hidden=True)
     assert faces(cube) == [not up for up in upwards(cube)] and all(faces(other))
+    for mesh in map(bmesh.from_edit_mesh, (cube.data, other.data)):  # as each face has them
+        assert all(vertex.select for vertex in mesh.verts)
     edited = bmesh.from_edit_mesh(cube.data)
     edited.faces.ensure_lookup_table()
     top = edited.faces[upwards(cube).index(True)]
@@ -116,9 +119,23 @@ def test_the_attribute_is_stored_in_both_modes_and_no_other_is_written_over(look
     bpy.ops.object.mode_set(mode="OBJECT")
     assert stored(cube) == expected
     cube.data.attributes.remove(cube.data.attributes["camera_sees"])
+    others = build.cube("Other"), build.cube("Another")
     cube.data.attributes.new("camera_sees", "FLOAT", "POINT")
     with pytest.raises(RuntimeError, match=r"has another attribute 'camera_sees': rename it"):
         select_seen(attribute=True)
+    assert not any("camera_sees" in other.data.attributes for other in others)
+
+
+def test_a_linked_mesh_cannot_have_an_attribute_which_is_said(looking, build, tmp_path, capsys):
+    path = str(tmp_path / "library.blend")
+    cube = build.cube("Cube")
+    bpy.data.libraries.write(path, {cube})
+    bpy.data.objects.remove(cube)
+    with bpy.data.libraries.load(path, link=True) as (_, linked):
+        linked.objects = ["Cube"]
+    looking.collection.objects.link(linked.objects[0])
+    select_seen(attribute=True)
+    assert "Mesh 'Cube' is linked from a library" in capsys.readouterr().out
 
 
 def modified(obj, kind, **values):
@@ -180,7 +197,7 @@ def test_what_modifiers_make_of_nothing_or_mix_is_said(looking, build, capsys):
     plane.location.z = -9
     select_seen(attribute=True)
     said = capsys.readouterr().out
-    assert said.count("nobody knows which of its own they come from") == 4  # reported, too
+    assert said.count("nobody knows which of its own they come from") == 2
     assert "'Dual' shows faces" in said and set(stored(dual)) == {2}
     assert "'Made' shows faces" in said and set(stored(made)) == {1, 2}
     assert stored(made)[upwards(made).index(True)] == 1
