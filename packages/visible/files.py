@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -46,11 +47,14 @@ class Total:
         SceneError
             If its faces are other ones.
         """
-        if other.faces != self.faces:
-            raise SceneError(
-                f"frame {max(other.cameras)} has other objects or faces than the frames before: "
-                "its faces are not theirs; choose frames in which they stay"
-            )
+        frame = max(other.cameras)
+        for before, now in zip_longest(self.faces, other.faces):
+            if before != now:
+                name, _ = before or now
+                raise SceneError(
+                    f"frame {frame} has other objects or faces than the frames before, from "
+                    f"'{name}' on: choose frames in which they stay"
+                )
         more = other._shown() > self._shown()
         for name in ("seen", "witness", "area", "behind", "witness_frame"):
             self.arrays[name][more] = other.arrays[name][more]

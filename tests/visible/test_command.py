@@ -98,17 +98,17 @@ def test_an_interrupt_leaves_what_was_there(reftrace, tmp_path, monkeypatch):
 
 def test_frames_are_counted():
     """Seen in any frame is seen; else undecided in any is undecided, by the largest area."""
+    points, faces = cube()
 
-    def of(frame, states, *areas, meshes=()):
-        scene = scene_of(*(meshes or [cube()]), camera=camera())
-        seen = np.array(states + [HIDDEN] * (12 - len(states)), np.uint8)
-        at = np.where(seen[:, None] == SEEN, float(frame), np.nan) * np.ones(2)
-        area = np.zeros(12)
-        area[seen == UNDECIDED] = areas
-        return Total(scene, Visible(seen, at, area, seen == SEEN, np.array([0, 12])), frame)
+    def total(frame, states, area, *meshes):
+        seen = np.array(states, np.uint8)
+        at = np.full((len(seen), 2), float(frame))
+        found = Visible(seen, at, np.array(area), seen == SEEN, np.array([0, len(seen)]))
+        return Total(scene_of(*meshes, camera=camera()), found, frame)
 
-    total = of(3, [SEEN, HIDDEN, UNDECIDED, UNDECIDED, UNDECIDED], 0.5, 0.5, 0.5)
-    total = total.add(of(4, [SEEN, SEEN, HIDDEN, SEEN, UNDECIDED], 0.7))
+    mesh = points, faces[:5]
+    found = total(3, [SEEN, HIDDEN, UNDECIDED, UNDECIDED, UNDECIDED], [0, 0, 0.5, 0.5, 0.5], mesh)
+    found.add(total(4, [SEEN, SEEN, HIDDEN, SEEN, UNDECIDED], [0, 0, 0, 0, 0.7], mesh))
     expected = {
         "seen": [SEEN, SEEN, UNDECIDED, SEEN, UNDECIDED],
         "frames": [2, 1, 0, 1, 0],
@@ -116,9 +116,8 @@ def test_frames_are_counted():
         "area": [0, 0, 0.5, 0, 0.7],
         "behind": [True, True, False, True, False],
     }
-    assert {name: total.arrays[name][:5].tolist() for name in expected} == expected
-    assert [3, 4, 4] == total.arrays["witness"][[0, 1, 3], 0].tolist()
-    points, faces = cube()
-    for others in ((cube(), cube()), [(points, faces[::-1])]):
-        with pytest.raises(SceneError, match="frame 5 has other objects or faces"):
-            total.add(of(5, [], meshes=others))
+    assert {name: found.arrays[name].tolist() for name in expected} == expected
+    assert found.arrays["witness"][[0, 1, 3], 0].tolist() == [3, 4, 4]
+    for others in ([mesh, mesh], [(points, faces[4::-1])]):
+        with pytest.raises(SceneError, match=r"frame 5 has other .* from 'things' on"):
+            found.add(total(5, [HIDDEN] * 5, [0] * 5, *others))
