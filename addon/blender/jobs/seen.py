@@ -33,9 +33,10 @@ HIDDEN, MAY_BE, SEEN = range(3)
 STATES = np.array([0, 2, 1], np.uint8)
 _CODE = "reference_tracer_face"
 _CODES = 2**31
-_UNKNOWN = (
-    "'{}' shows faces that modifiers or a simulation made, mixed or took from elsewhere: nobody "
-    "knows which of its own they come from"
+_LINKED = "Mesh '{}' is linked from a library: nothing is stored with its faces"
+_UNSURE = (
+    "'{}' shows faces that modifiers or a simulation made, mixed, merged or left out: which of its "
+    "own they come from is not known of all"
 )
 
 
@@ -64,17 +65,12 @@ def look(context: Any, meshes: Collection[Any], frames: Sequence[int]) -> Work[C
     layer = context.view_layer.name
     objects: Any = bpy.data.objects
     own = {o.name_full: o for o in objects if o.data in meshes and not o.data.library}
-    found = CameraSees({}, {}, {})
+    linked = (mesh.name for mesh in meshes if mesh.library)
+    found = CameraSees({}, {}, dict.fromkeys(map(_LINKED.format, linked)))
     for obj in own.values():
         obj.update_from_editmode()
-        found.faces[obj.data] = np.zeros(len(obj.data.polygons), np.uint8)
-    for obj in own.values():
-        if obj.reference_tracer.infinite_plane:  # has no faces
-            found.faces[obj.data][:] = MAY_BE
-    for mesh in meshes:
-        if mesh.library:
-            note = f"Mesh '{mesh.name}' is linked from a library: nothing is stored with its faces"
-            found.notes[note] = None
+        unsure = MAY_BE * obj.reference_tracer.infinite_plane  # which has no faces
+        found.faces[obj.data] = np.full(len(obj.data.polygons), unsure, np.uint8)
     if not frames:
         yield from _look(scene, layer, own, found)
     with values_restored():
@@ -94,20 +90,35 @@ def _look(scene: Any, layer: str, own: Mapping[str, Any], found: CameraSees) -> 
         codes = _codes(tmp, own) if own else {}
     visible = yield from steps(whole)
     ranks = np.split(STATES[visible.seen], visible.start[1:-1])
+    shown: dict[str, list[tuple[Integers, Bytes]]] = {}
     for instance, rank, owner in zip(whole.instances, ranks, manifest.owners, strict=False):
         found.objects[owner] = max(found.objects.get(owner, HIDDEN), int(np.max(rank)))
         name = whole.objects[instance.object]
         if name in own:
-            faces = found.faces[own[name].data]
             triangles = whole.meshes[instance.mesh].triangles
             code = codes.get((name, triangles.tobytes()), np.zeros_like(rank))
-            known = np.append(_codes_of(len(faces)), _CODES)  # the last one is nobody's
-            number = np.searchsorted(known, code)
-            is_known = known[number] == code
-            np.maximum.at(faces, number[is_known], rank[is_known])
-            if rank[~is_known].any():
-                np.maximum(faces, MAY_BE, out=faces)
-                found.notes[_UNKNOWN.format(name)] = None
+            shown.setdefault(name, []).append((code, rank))
+    for name, parts in shown.items():
+        code, rank = map(np.concatenate, zip(*parts, strict=True))
+        if _spread(found.faces[own[name].data], code, rank):
+            found.notes[_UNSURE.format(name)] = None
+
+
+def _spread(faces: Bytes, code: Integers, rank: Bytes) -> bool:
+    """Give faces the ranks of an object's triangles (n,) that have their codes.
+
+    If one that has no face's code may be seen, so may each face. And if any may be seen, so may
+    each face that has left nothing: another one may have been merged with it. Returns whether there
+    is such a face.
+    """
+    known = np.append(_codes_of(len(faces)), _CODES)  # the last one is nobody's
+    number = np.searchsorted(known, code)
+    is_known = known[number] == code
+    np.maximum.at(faces, number[is_known], rank[is_known])
+    unsure = np.full(len(faces), rank.any())
+    unsure[number[is_known]] = rank[~is_known].any()
+    faces[unsure] = np.maximum(faces[unsure], MAY_BE)
+    return bool(unsure.any())
 
 
 def _codes(tmp: Any, own: Mapping[str, Any]) -> dict[tuple[str, bytes], Integers]:
@@ -129,7 +140,9 @@ def _codes(tmp: Any, own: Mapping[str, Any]) -> dict[tuple[str, bytes], Integers
         copy.data = coded[obj.data]
         copy.hide_render = False
         for modifier in copy.modifiers if obj.mode == "EDIT" else ():
-            modifier.show_render = modifier.show_render and modifier.show_in_editmode
+            # What is edited is evaluated so, for a render, too.
+            is_on = modifier.show_viewport and modifier.show_in_editmode
+            modifier.show_render = is_on and getattr(modifier, "levels", 1) > 0
         tmp.collection.objects.link(copy)
         names[copy.name_full] = name
     copies, _ = evaluated(tmp, None, once(partial(export, slots=_CODE)))
