@@ -14,7 +14,7 @@ from ..arrays import Array, Floats, Index, parts
 from ..certified.bounds import Fractions, plane_fractions
 from ..certified.rounding import rounding
 from ..certified.sweep.depth_buffer import ROUNDING, nearness
-from ..scene import Region, Scene
+from ..scene import Plane, Region, Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.progress import Work
@@ -153,28 +153,24 @@ def _of_corners(values: Array) -> Array:
     return np.stack((values[:-1, :-1], values[:-1, 1:], values[1:, :-1], values[1:, 1:]))
 
 
-def behind_planes(scene: Scene, faces: Faces, low: Floats, high: Floats) -> Floats:
-    """Return the nearness that infinite planes have at least in n boxes, (n,); -inf if none.
+def behind_plane(scene: Scene, faces: Faces, plane: Plane, low: Floats, high: Floats) -> Floats:
+    """Return the nearness that an infinite plane has at least in n boxes, (n,); else -inf.
 
     There is room for the rounding of the rays at the corners, and of those between.
     """
     camera = scene.camera
     parallel = camera.projection.shares_direction
-    out = np.full(low.shape[1], -np.inf)
-    for plane in scene.planes:
-        x, y = np.stack((low, high), axis=1)
-        rays = camera_rays(camera, np.concatenate((*x, *x)), np.concatenate((*y, *y[::-1])))
-        found = plane_fractions(rays, plane.point[:, None], plane.normal[:, None])
-        off = 2 * rounding(scene).ray * np.abs(plane.normal).max()
-        moved = Fractions(
-            found.numerator,
-            found.numerator_error + (off if parallel else 0.0),
-            found.denominator,
-            found.denominator_error + (0.0 if parallel else off),
-        )
-        first, last = (np.broadcast_to(end, rays.count) for end in moved.interval())
-        least, most = nearness(camera, first, last, ROUNDING)
-        sure = np.isfinite(last) & faces.clip.inside(least, most)
-        least = np.where(sure, least, -np.inf).reshape(4, -1).min(axis=0)
-        out = np.maximum(out, least)
-    return out
+    x, y = np.stack((low, high), axis=1)
+    rays = camera_rays(camera, np.concatenate((*x, *x)), np.concatenate((*y, *y[::-1])))
+    found = plane_fractions(rays, plane.point[:, None], plane.normal[:, None])
+    off = 2 * rounding(scene).ray * np.abs(plane.normal).max()
+    moved = Fractions(
+        found.numerator,
+        found.numerator_error + (off if parallel else 0.0),
+        found.denominator,
+        found.denominator_error + (0.0 if parallel else off),
+    )
+    first, last = (np.broadcast_to(end, rays.count) for end in moved.interval())
+    least, most = nearness(camera, first, last, ROUNDING)
+    sure = np.isfinite(last) & faces.clip.inside(least, most)
+    return np.where(sure, least, -np.inf).reshape(4, -1).min(axis=0)

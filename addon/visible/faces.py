@@ -115,8 +115,9 @@ class Faces:
         # As film.py has it: what is farther beside the picture truly lies on that side of it.
         beyond = 2 * max(camera.width, camera.height)
         constant, slope = self.film.place
-        margin = constant + (slope + beyond * self.film.weight) * v.size
-        margin = 1.01 * margin / v.w + 2 * DELTA
+        self.room = constant + (slope + beyond * self.film.weight) * v.size
+        self.room *= 1.01 / v.w
+        margin = self.room + 2 * DELTA
         at = np.clip((v.x, v.y), -beyond, beyond)
         self.at = np.stack((at - margin, at + margin))
         self.at[:, :, ~v.ahead] = np.array([[[-np.inf]], [[np.inf]]])

@@ -10,15 +10,16 @@ from ..certified.arithmetic import sound_steps
 from ..methods import Method
 from ..rendering import hits as trace_hits
 from ..scene import Scene, SceneError
+from ..tracer.camera import Rays, film_of
 from ..tracer.hits import Statistics
 from ..tracer.progress import Progress, Work, result_of, scaled
 from ..tracer.settings import Settings
-from .cells import TOGETHER, TOP, Cells, behind_planes, finer, quarters, scale_of
+from .cells import TOGETHER, TOP, Cells, behind_plane, finer, quarters, scale_of
 from .cover import Cover
 from .faces import Faces
 from .found import HIDDEN, SEEN, UNDECIDED, Visible
 from .hiding import patches
-from .points import points_of
+from .polygons import before_planes, middles, on_film
 from .sights import Sights
 
 LIMIT = 1e-6  # square pixels
@@ -28,6 +29,7 @@ _TOGETHER = 1 << 12  # pairs of faces that are compared in one step
 _CELLS = 64  # of a face, that are divided
 _FINER = 12  # times that cells of a pixel are divided
 _TRIES = 6
+_RAYS = 64  # through each face of which little may be seen; and as many of them at once
 
 
 def visible(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Visible:
@@ -134,14 +136,31 @@ class _Search:
         for k in (0, 1):
             np.minimum.at(self._low[k], face, low[k])
             np.maximum.at(self._high[k], face, high[k])
+        self._cut()
+
+    def _cut(self) -> None:
+        """Leave out what is behind planes."""
+        some = np.flatnonzero(self.area)
+        polygons = self._left_of(some)
+        least, most, area = on_film(self._faces, some, polygons)
+        self._low[:, some] = np.fmax(self._low[:, some], least)
+        self._high[:, some] = np.fmin(self._high[:, some], most)
+        self.area[some] = np.fmin(self.area[some], area)
+        self.area[some[np.isnan(polygons).any(axis=(0, 1))]] = 0
+
+    def _left_of(self, face: Index) -> Floats:
+        """Return the parts of faces (n,) that planes leave, (k, 3, n), in world space."""
+        box = self._low[:, face], self._high[:, face]
+        return before_planes(self._scene, self._faces, face, *box)
 
     def _open(self, cells: Cells, level: int, face: Index, cell: Index) -> Bools:
         """Return in which cells faces may be seen, (n,)."""
         faces = self._faces
         low, high = cells.film(level, cell)
         farthest = cells.hidden[level][cell[1], cell[0]]
-        if level == 0:
-            farthest = np.maximum(farthest, behind_planes(self._scene, faces, low, high))
+        for plane in self._scene.planes if level == 0 else ():
+            own = behind_plane(self._scene, faces, plane, low, high)
+            farthest = np.maximum(farthest, own)
         found = faces.within(face, low, high)
         missed = found.beside | faces.clip.outside(found.least, found.most)
         return ~(missed | (found.most < farthest))
@@ -156,13 +175,26 @@ class _Search:
         self._tries = np.zeros(faces.count, np.intp)  # since more was known of what is before it
         self._left = self.seen == UNDECIDED
         some = np.flatnonzero(self._left)
-        middle = points_of(faces, some, self._low[:, some], self._high[:, some])
+        middle = middles(faces, some, self._low[:, some], self._high[:, some])
         rays: tuple[Index, Floats] = some, middle
         while len(rays[0]) and self._before.work > 0:
             yield None
             rays = yield from self._round(*rays)
+        yield from self._look_closely()
         yield from self._divide(cells)
         self.area[self.seen != UNDECIDED] = 0
+
+    def _look_closely(self) -> Work[None]:
+        """Look through many points of faces that few rays meet, so little may be seen of them."""
+        random = np.random.default_rng(0)
+        thin = np.flatnonzero((self.seen == UNDECIDED) & (self.area <= self._limit))
+        for part in parts(len(thin), _RAYS):
+            face = thin[part]
+            polygons = self._left_of(face)
+            shares = random.dirichlet(np.ones(len(polygons)), _RAYS)
+            points = np.tensordot(shares, polygons, 1).swapaxes(0, 1).reshape(3, -1)
+            x, y, _ = film_of(self._scene.camera, points)
+            yield from self._look(np.tile(face, _RAYS), np.stack((x, y)))
 
     def _divide(self, cells: Cells) -> Work[None]:
         """Divide the cells of faces that are left, and see whether each is covered by one patch."""
@@ -201,11 +233,18 @@ class _Search:
         least = patches(self._faces, base, at[:, which], low[:, which], high[:, which])
         covered[which[least > found.most[which]]] = True
         rows = np.flatnonzero(~covered)
-        before, _ = yield from self._sights.look(at[:, rows], face[rows])
-        own = before == face[rows]
-        self._enter(face[rows[own]], at[:, rows[own]])
+        before, *_ = yield from self._look(face[rows], at[:, rows])
         self._before.add(face[rows], before)
         return covered | (self.seen[face] == SEEN)
+
+    def _look(self, face: Index, at: Floats) -> Work[tuple[Index, Rays, Bools]]:
+        """Trace n rays for faces; return what they see, the rays, and which may see the faces."""
+        before, rays = yield from self._sights.look(at, face)
+        # A ray along the picture's border may see what is wholly beyond it.
+        inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
+        own = (before == face) & inside
+        self._enter(face[own], at[:, own])
+        return before, rays, inside
 
     def _add(self, face: Index, before: Index) -> Work[None]:
         for part in parts(len(face), _TOGETHER):
@@ -215,11 +254,7 @@ class _Search:
     def _round(self, face: Index, at: Floats) -> Work[tuple[Index, Floats]]:
         """Trace rays, decide what they tell, and return the next ones: past edges."""
         faces, cover, covered, tries = self._faces, self._before, self._covered, self._tries
-        before, rays = yield from self._sights.look(at, face)
-        # A ray along the picture's border may see what is wholly beyond it.
-        inside = ((self._low[:, face] < at) & (at < self._high[:, face])).all(axis=0)
-        own = (before == face) & inside
-        self._enter(face[own], at[:, own])
+        before, rays, inside = yield from self._look(face, at)
         self._left &= self.seen == UNDECIDED
         rows = np.flatnonzero(self._left[face])
         face, before, inside, rays = face[rows], before[rows], inside[rows], rays.take(rows)
