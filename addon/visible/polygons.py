@@ -41,7 +41,10 @@ def middles(faces: Faces, face: Index, low: Floats, high: Floats) -> Floats:
     for axis, size in enumerate(high - low):
         polygons = cut(polygons, polygons[:, axis])
         polygons = cut(polygons, polygons[:, 2] * size - polygons[:, axis])
-    middle = (polygons[:, :2] / polygons[:, 2:]).mean(axis=0)
+    at = polygons[:, :2] / polygons[:, 2:]
+    after = np.roll(at, -1, axis=0)
+    length = np.linalg.norm(after - at, axis=1, keepdims=True)
+    middle = (length * (at + after)).sum(axis=0) / (2 * length.sum(axis=0))
     return np.clip(np.where(np.isfinite(middle), low + middle, (low + high) / 2), low, high)
 
 
