@@ -5,13 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats, Index
-from ..scene import Scene
 from ..tracer.camera import film_of
-from ..tracer.vector import dot
-from .cells import behind_plane
 from .faces import Faces
-
-_ROUNDING = 2.0**-50  # of a corner's distance to a plane, relative to its terms
 
 
 def cut(polygons: Floats, value: Floats) -> Floats:
@@ -46,26 +41,6 @@ def middles(faces: Faces, face: Index, low: Floats, high: Floats) -> Floats:
     length = np.linalg.norm(after - at, axis=1, keepdims=True)
     middle = (length * (at + after)).sum(axis=0) / (2 * length.sum(axis=0))
     return np.clip(np.where(np.isfinite(middle), low + middle, (low + high) / 2), low, high)
-
-
-def before_planes(scene: Scene, faces: Faces, face: Index, low: Floats, high: Floats) -> Floats:
-    """Return the parts of faces (n,) that planes may leave in boxes, (k, 3, n), in world space.
-
-    A plane that is met by all of a box's rays leaves what may be on the eye's side of it.
-    """
-    camera = scene.camera
-    polygons = faces.points[:, faces.corners[:, face]].swapaxes(0, 1)
-    for plane in scene.planes:
-        parallel = camera.projection.shares_direction
-        away = camera.forward if parallel else plane.point - camera.origin
-        normal = -np.sign(away @ plane.normal) * plane.normal[:, None, None]
-        corners = polygons.swapaxes(0, 1)
-        point = plane.point[:, None, None]
-        size = dot(np.abs(normal), np.abs(corners) + np.abs(point))
-        value = dot(normal, corners - point) + _ROUNDING * size
-        met = behind_plane(scene, faces, plane, low, high) > -np.inf
-        polygons = cut(polygons, np.where(met, value, 1.0))
-    return polygons
 
 
 def on_film(faces: Faces, face: Index, polygons: Floats) -> tuple[Floats, Floats, Floats]:
