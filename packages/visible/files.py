@@ -14,6 +14,8 @@ from reference_tracer.scene import Scene, SceneError
 from reference_tracer.visible import SEEN, Visible
 
 SCHEMA = "reference_tracer.visible/1"
+_KINDS = "hidden", "seen_from_front", "undecided", "seen_from_behind"  # by Visible.seen; and
+_BEHIND = 3
 _BEHIND = 3  # beside HIDDEN, SEEN and UNDECIDED: seen, and from behind
 
 
@@ -67,38 +69,29 @@ class Total:
         return np.choose(self.arrays["seen"], (-1.0, np.inf, self.arrays["area"]))
 
     def rows(self) -> list[dict[str, Any]]:
-        """Return what is found of each object, and of all together at the end."""
+        """Return how many faces of each object are found to be what, and of all at the end."""
         found = self.arrays
         names = [*found["objects"].tolist(), "all"]
         of = np.repeat(found["object"], np.diff(found["start"]))
-        counts = np.zeros((len(names), 4), int)
+        counts = np.zeros((len(names), len(_KINDS)), int)
         np.add.at(counts, (of, np.where(found["behind"], _BEHIND, found["seen"])), 1)
         counts[-1] = counts.sum(axis=0)
-        areas = np.zeros(len(names))
-        np.maximum.at(areas, of, found["area"])
-        areas[-1] = np.max(areas)
         return [
-            {
-                "object": name,
-                "faces": hidden + front + undecided + behind,
-                "seen": front + behind,
-                "seen_from_behind": behind,
-                "hidden": hidden,
-                "undecided": undecided,
-                "largest_area": area,
-            }
-            for name, (hidden, front, undecided, behind), area in zip(
-                names, counts.tolist(), areas.tolist(), strict=True
-            )
+            {"object": name, **dict(zip(_KINDS, row, strict=True))}
+            for name, row in zip(names, counts.tolist(), strict=True)
         ]
 
     def lines(self) -> list[str]:
-        """Return a line for each object, and one for all."""
+        """Return a line for each object, one for all, and how little is undecided."""
         line = (
-            "{object}: {seen:,} of {faces:,} faces seen, {seen_from_behind:,} of them from behind; "
-            "{hidden:,} hidden; {undecided:,} undecided, at most {largest_area:.2g} px² each"
+            "{object}: {seen_from_front:,} faces seen from the front, {seen_from_behind:,} from "
+            "behind, {hidden:,} hidden, {undecided:,} undecided"
         )
-        return [line.format(**row) for row in self.rows()]
+        area = np.max(self.arrays["area"], initial=0.0)
+        return [
+            *(line.format(**row) for row in self.rows()),
+            f"at most {area:.2g} px² may be seen of each that is undecided",
+        ]
 
     def save(self, arrays: Path, counts: Path, limit: float) -> None:
         """Write the arrays into an .npz, and what they come to into a .json beside it."""

@@ -32,7 +32,7 @@ def saved(build, tmp_path):
 
 def rows(out):
     found = json.loads(out.with_suffix(".json").read_text())
-    return {row["object"]: row["seen"] for row in found["objects"]}, found["frames"]
+    return {row["object"]: row["seen_from_front"] for row in found["objects"]}, found["frames"]
 
 
 def test_frames_and_cameras(saved, reftrace, tmp_path):

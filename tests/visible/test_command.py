@@ -41,25 +41,16 @@ def contents(folder):
 def test_files_and_lines(reftrace, tmp_path, capsys):
     assert reftrace("--set", "eye=0,-4,0", "angle=40") == 0
     lines = capsys.readouterr().out
-    assert "Front: 1 of 1 faces seen, 0 of them from behind; 0 hidden" in lines
-    assert "all: 2 of 2 faces seen" in lines
+    assert "Front: 1 faces seen from the front, 0 from behind, 0 hidden, 0 undecided" in lines
+    assert "all: 1 faces seen from the front, 1 from behind, 0 hidden, 0 undecided" in lines
     with np.load(FILES[0]) as found:
         arrays = dict(found)
     assert arrays["seen"].dtype == np.uint8 and arrays["seen"].shape == (2,)
     assert arrays["objects"][arrays["object"]].tolist() == ["Front", "Back"]
     assert np.isfinite(arrays["witness"]).all(axis=1).tolist() == (arrays["seen"] == SEEN).tolist()
     content = json.loads((tmp_path / FILES[1]).read_text())
-    assert [row["seen"] for row in content["objects"]] == arrays["seen"].tolist()
-    assert content["all"]["faces"] == 2
-
-
-def test_a_camera_of_a_file(reftrace):
-    for way, expected in ((1, SEEN), (-1, HIDDEN)):  # towards the mesh, and away from it
-        axes = [[way, 0, 0], [0, 0, -way], [0, 1, 0]]
-        write_camera("camera.json", camera(at=(0, -4, 0), axes=axes))
-        assert reftrace("--camera", "camera.json") == 0
-        with np.load(FILES[0]) as found:
-            assert found["seen"][0] == expected
+    assert [row["seen_from_behind"] for row in content["objects"]] == arrays["behind"].tolist()
+    assert content["all"]["seen_from_front"] == 1
 
 
 def test_what_is_read_is_not_written_over(reftrace, tmp_path, capsys):
