@@ -15,8 +15,6 @@ from reference_tracer.tracer.vector import spread
 from .every import Crossings
 from .inside import Inside, rays_from
 
-ORIGINS, DIRECTIONS = "origins", "directions"
-
 
 def load_rays(path: Path) -> Rays:
     """Read n rays: `origins` and `directions`, (n, 3) each or (3,) where all share it.
@@ -28,15 +26,15 @@ def load_rays(path: Path) -> Rays:
         finite, or a direction is zero; the message names the array and the row.
     """
     with npz.opened(path) as held:
-        origins, directions = (_vectors(held, name) for name in (ORIGINS, DIRECTIONS))
-        counts = {v.shape[1] for v in (origins, directions)} - {1}
-        if len(counts) > 1:
+        origins = _vectors(held, "origins")
+        directions = _vectors(held, "directions")
+        if 1 != origins.shape[1] != directions.shape[1] != 1:
             raise SceneError(
                 f"it has {origins.shape[1]:,} origins and {directions.shape[1]:,} directions: "
                 "there must be as many, or one for all"
             )
-        if (still := np.flatnonzero(~directions.any(axis=0))).size:
-            raise SceneError(f"row {still[0]} of {DIRECTIONS} is zero, and leads nowhere")
+        for row in np.flatnonzero(~directions.any(axis=0)):
+            raise SceneError(f"row {row} of directions is zero, and leads nowhere")
     return Rays(origins, directions)
 
 
@@ -55,8 +53,8 @@ def _vectors(held: npz.Arrays, name: str) -> Floats:
     if given.shape[1:] != (3,) or given.dtype.kind not in "fiu":
         raise SceneError(f"{name} holds {given.shape} of {given.dtype}, not (n, 3) numbers")
     vectors = given.T.astype(np.float64)
-    if (bad := np.flatnonzero(~np.isfinite(vectors).all(axis=0))).size:
-        raise SceneError(f"row {bad[0]} of {name} is not finite")
+    for row in np.flatnonzero(~np.isfinite(vectors).all(axis=0)):
+        raise SceneError(f"row {row} of {name} is not finite")
     if (vectors.astype(given.dtype) != given.T).any():
         raise SceneError(f"{name} holds numbers that float64 does not: round them")
     return vectors
