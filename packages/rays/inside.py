@@ -5,7 +5,7 @@ ray is moved by the rule, and so meets no edge and no corner: any direction has 
 Integers say where a triangle holds the point itself. One without an area holds none.
 
 Closed is a mesh whose edges can be paired, as `Closed.closed_surface_rule` (proofs/) wants it. Two
-edges are the same where their ends have the same coordinates; between equal corners there is none.
+edges are the same where their ends are in the world; between corners in one place there is none.
 If each is passed as often one way as the other, it is oriented: else no winding number is defined.
 """
 

@@ -195,15 +195,14 @@ def test_rays_that_are_none_or_the_cameras(make):
 
 
 def test_rays_in_other_types_and_shapes(make):
-    """Those of float32 or float16 are float64's, too; what are no rays is refused, not traced."""
+    """Those of float16 are float64's, too; of two counts, none is traced."""
     scene = unit_cube(make)
-    for dtype in (np.float16, np.float32, np.longdouble, int):
-        rays = Rays(np.zeros((3, 1), dtype), np.array([[0], [0], [2]], dtype) / dtype(1))
-        assert trace(scene, rays=rays, every=True).t.tolist() == [0.25]
-    for shapes in (((3, 4), (3, 5)), ((4, 3), (4, 3))):
-        for every in (False, True):
-            with pytest.raises(ValueError, match="shape"):
-                trace(scene, rays=Rays(*map(np.ones, shapes)), every=every)
+    for dtype in (np.float16, np.float32, np.longdouble):
+        rays = Rays(np.zeros((3, 1), dtype), np.array([[0], [0], [0.5]], dtype))
+        assert trace(scene, rays=rays, every=True).t.tolist() == [1]
+    for rows, columns in ((3, 5), (4, 4)):
+        with pytest.raises(ValueError, match="shape"):
+            trace(scene, rays=Rays(np.ones((rows, 4)), np.ones((rows, columns))))
 
 
 def test_a_method_that_proves_nothing_is_refused(make):
