@@ -23,7 +23,7 @@ from .every import Crossings, all_hits
 from .files import load_points, load_rays, save
 from .inside import Inside, places
 
-_T = number(float, lambda value: not np.isnan(value), "a number")
+_T = number(float, lambda _: True, "a number")
 
 
 def add(parser: Parser) -> None:
@@ -48,46 +48,44 @@ def add(parser: Parser) -> None:
         words = f"the {what} t that counts, in lengths of the direction (default %(default)g)"
         parser.add_argument(f"--{name}", type=_T, default=t, metavar="T", help=words)
     ways = parser.add_mutually_exclusive_group()
-    ways.set_defaults(what="first")
     for name, words in (
         ("every", "write all that each ray meets, each surface once, in order of t"),
         ("parity", "write which points lie inside closed meshes, and their winding numbers"),
         ("every-pair", "test each ray with each triangle, without a tree of boxes: far slower"),
     ):
-        ways.add_argument(f"--{name}", action="store_const", dest="what", const=name, help=words)
+        ways.add_argument(f"--{name}", action="store_true", help=words)
     add_parts(parser)
 
 
 def rays(given: Namespace) -> int:
     """Trace, and write what the rays meet, or where points are."""
     clip = given.start, given.end
-    of_points = given.what == "parity"
     if not given.start < given.end:
         raise SceneError(f"--start {given.start:g} is not below --end {given.end:g}")
-    if of_points and clip != (0, np.inf):
+    if given.parity and clip != (0, np.inf):
         raise SceneError("--parity takes whole rays: leave out --start and --end")
     if folders.place_of(given.out) in map(folders.place_of, (given.scene, given.rays)):
         raise SceneError(f"--out '{given.out}' is a file that is read: choose another")
     choice = choice_from(given, given.scene)
-    read = (load_points if of_points else load_rays)(given.rays)
+    read = (load_points if given.parity else load_rays)(given.rays)
     with folders.made_for_file(given.out):
         opened = open_file(given.scene, choice, whole=True)
         scene = opened.scene
         show(*opened.manifest.lines())
         statistics = Statistics(refused=refused(scene))
         work: Work[Any]
-        if of_points:
+        if given.parity:
             work = places(scene, read)
-        elif given.what == "every":
+        elif given.every:
             work = all_hits(scene, read, clip)
         else:
             statistics.method = "certified"
-            work = nearest_hits(scene, read, clip, statistics, given.what == "first")
+            work = nearest_hits(scene, read, clip, statistics, not given.every_pair)
         with progress_bar() as progress:
             found: Any = result_of(scaled(work, 0.0, 1.0, "tracing"), progress)
         with folders.replacing_file(given.out) as new:
             save(new, scene, read.count, found)
-    counts = count_of(read.count, "point" if of_points else "ray")
+    counts = count_of(read.count, "point" if given.parity else "ray")
     counts += f", {count_of(scene.triangle_count, 'triangle')}: {_said(found)}"
     show(f"{counts}: {given.out}", *statistics.required())
     return AGREE

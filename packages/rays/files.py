@@ -28,11 +28,10 @@ def load_rays(path: Path) -> Rays:
     with npz.opened(path) as held:
         origins = _vectors(held, "origins")
         directions = _vectors(held, "directions")
-        if 1 != origins.shape[1] != directions.shape[1] != 1:
-            raise SceneError(
-                f"it has {origins.shape[1]:,} origins and {directions.shape[1]:,} directions: "
-                "there must be as many, or one for all"
-            )
+        counts = origins.shape[1], directions.shape[1]
+        if len({*counts, 1}) > 2:
+            said = "it has {:,} origins and {:,} directions: there must be as many, or one for all"
+            raise SceneError(said.format(*counts))
         for row in np.flatnonzero(~directions.any(axis=0)):
             raise SceneError(f"row {row} of directions is zero, and leads nowhere")
     return Rays(origins, directions)
