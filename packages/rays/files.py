@@ -13,7 +13,7 @@ from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.vector import spread
 
 from .every import Crossings
-from .inside import Inside, rays_from
+from .inside import ALONG, Inside
 
 
 def load_rays(path: Path) -> Rays:
@@ -40,7 +40,7 @@ def load_rays(path: Path) -> Rays:
 def load_points(path: Path) -> Rays:
     """Read n points, `points`, (n, 3), as the origins of rays; it raises what `load_rays` does."""
     with npz.opened(path) as held:
-        return rays_from(_vectors(held, "points"))
+        return Rays(_vectors(held, "points"), ALONG)
 
 
 @np.errstate(all="ignore")  # what a number becomes is compared

@@ -31,7 +31,7 @@ from .every import all_hits
 
 OUTSIDE, INSIDE, ON = range(3)
 # Uneven, so that few rays through a regular mesh meet its edges, and integers have less to do.
-_ALONG = ((0.8291,), (0.4673,), (0.3067,))
+ALONG = np.array([[0.8291], [0.4673], [0.3067]])
 # Parallel to no triangle: in integers, the components of a normal have less digits, some 4,200.
 _ACROSS = np.array([[1], [1 << 9999], [1 << 19998]], object)
 
@@ -51,11 +51,6 @@ class Inside:
 
     place: Bytes
     winding: Integers | None
-
-
-def rays_from(points: Floats) -> Rays:
-    """Return a ray from each of n points, (3, n) float64: each has a direction of its own."""
-    return Rays(points, np.broadcast_to(_ALONG, points.shape))
 
 
 @sound_steps
@@ -88,7 +83,7 @@ def places(scene: Scene, rays: Rays) -> Work[Inside]:
 def inside(scene: Scene, points: ArrayLike) -> Inside:
     """Find where points lie; see `reference_tracer.inside`."""
     given = np.atleast_2d(points)
-    return result_of(places(scene, rays_from(finite(given, (len(given), 3), "points").T)))
+    return result_of(places(scene, Rays(finite(given, (len(given), 3), "points").T, ALONG)))
 
 
 def require_closed(scene: Scene) -> bool:
