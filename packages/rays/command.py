@@ -42,7 +42,8 @@ def add(parser: Parser) -> None:
         required=True,
         type=parser.path_ending(".npz"),
         metavar="HITS.npz",
-        help="the file to write: t, object, instance, triangle, barycentrics and ties of each ray",
+        help="the file to write: t, object, instance, triangle, barycentrics and ties of each ray; "
+        "also start, enters and same_t with --every; place and winding with --parity",
     )
     for name, t, what in (("start", 0.0, "least"), ("end", np.inf, "largest")):
         words = f"the {what} t that counts, in lengths of the direction (default %(default)g)"

@@ -26,6 +26,7 @@ from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import refused
+from reference_tracer.wording import listed
 
 from .every import all_hits
 
@@ -98,7 +99,7 @@ def require_closed(scene: Scene) -> bool:
         if length:
             wrong.append(f"'{scene.objects[instance.object]}' has a boundary of {length:.6g} m")
     if wrong:
-        raise SceneError(f"only a closed mesh has an inside: {'; '.join(wrong)}")
+        raise SceneError(f"only a closed mesh has an inside: {listed(wrong, 9)}")
     return oriented
 
 
