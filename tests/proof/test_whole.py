@@ -76,9 +76,9 @@ LEFT_OUT = {
         SORTS: "neighbours _cuts",
     },
     "triangle_tree.py": {
-        BOXES_BY_HAND: "_Sheared.of _triangles TriangleTree.pairs",
-        WHICH: "TriangleTree.of TriangleTree.made_of",
-        LEAST: "_boxes",
+        BOXES_BY_HAND: "TriangleTree.pairs",
+        WHICH: "TriangleTree.of",
+        LEAST: "TriangleTree.made_of",
     },
     "sweep/boxes.py": {
         BOXES: "_corners_with_room",
