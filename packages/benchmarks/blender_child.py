@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 from reference_tracer.blender.drawing.camera_object import add_camera
+from reference_tracer.blender.drawing.constant_material import emission
 from reference_tracer.scene import Mesh, Scene
 
 from . import scenes
@@ -62,7 +63,9 @@ def open_scene(wanted: Scene) -> Any:
     add_camera(scene, wanted.camera)
     obj = bpy.data.objects.new("Mesh", _mesh(wanted.meshes[0]))
     scene.collection.objects.link(obj)
-    obj.data.materials.append(_emission())
+    material = bpy.data.materials.new("Constant")
+    emission(material)  # what costs Cycles least: it sends no further ray
+    obj.data.materials.append(material)
     render, cycles = scene.render, scene.cycles
     render.threads_mode, render.threads = "FIXED", 1
     render.use_compositing = render.use_sequencer = False
@@ -86,20 +89,6 @@ def _mesh(wanted: Mesh) -> Any:
     mesh.polygons.foreach_set("loop_start", np.arange(0, 3 * count, 3, dtype=np.int32))
     mesh.update(calc_edges=True)
     return mesh
-
-
-def _emission() -> Any:
-    """Return the material that costs Cycles least: it sends no further ray."""
-    material = bpy.data.materials.new("Constant")
-    if not material.node_tree:  # before 5.0
-        material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    emission, output = (
-        tree.nodes.new(f"ShaderNode{name}") for name in ("Emission", "OutputMaterial")
-    )
-    tree.links.new(emission.outputs[0], output.inputs["Surface"])
-    return material
 
 
 def cast(tree: BVHTree, rays: Rays) -> float:
