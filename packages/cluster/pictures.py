@@ -5,16 +5,11 @@ Of a certified picture workers say who owns a ray: t, barycentrics and colours a
 
 from __future__ import annotations
 
-import json
 from collections import deque
 from dataclasses import replace
 from itertools import islice
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
-import numpy as np
 from distributed import Future
-from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
 from reference_tracer.tracer.hits import Hits, Statistics
@@ -47,32 +42,17 @@ def tracer(cluster: Cluster) -> Tracer:
 
 
 def sent_scene(cluster: Cluster, scene: Scene) -> Future:
-    """Return a scene on the workers, its camera aside; it is sent where it is new."""
-    parts = scene.meshes, scene.instances, scene.planes, scene.background.tobytes()
-    if not _is_same(parts, cluster.sent[0] if cluster.sent else ()):
-        with TemporaryDirectory() as folder:
-            path = Path(folder) / "scene.npz"
-            save_scene(path, scene)
-            cluster.sent = parts, cluster.keep(path.read_bytes())
-    assert cluster.sent
+    """Return a scene on the workers; it is sent where it is new."""
+    if not cluster.sent or cluster.sent[0] is not scene:
+        cluster.sent = scene, cluster.keep(scene)
     return cluster.sent[1]
-
-
-def _is_same(parts: tuple, others: tuple) -> bool:
-    return all(a is b or a == b for a, b in zip(parts, others, strict=True)) if others else False
-
-
-def camera_json(scene: Scene) -> str:
-    """Return a scene's camera as JSON."""
-    return json.dumps(scene.camera.to_dict(), default=np.generic.item)
 
 
 def _tracing(
     cluster: Cluster, scene: Scene, settings: Settings, reach: float, statistics: Statistics
 ) -> TraceBand:
     """Return what traces the bands of a picture, of which some regions are given away ahead."""
-    camera, region = camera_json(scene), scene.camera.region
-    given = sent_scene(cluster, scene), camera, json.dumps(vars(settings)), reach
+    given, region = (sent_scene(cluster, scene), settings, reach), scene.camera.region
     threads = sum(cluster.workers().values())
     rows = region.height * sum(len(each.rays()) for each in rounds(settings))
     # Each part takes a look at every triangle: few are best.
@@ -92,8 +72,7 @@ def _tracing(
         count = len(parts(band))
         for number in range(count):
             for part, at in islice(todo, AHEAD * threads - len(ahead)):
-                corners = tuple(vars(part).values())
-                ahead.append(cluster.ask(tasks.trace, *given, corners, *at))
+                ahead.append(cluster.ask(tasks.trace, *given, part, *at))
             seen, took = yield from cluster.answer(ahead.popleft())
             count_in(statistics, took)
             found.append(seen)

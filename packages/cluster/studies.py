@@ -5,11 +5,8 @@ Times and memory are the worker's own.
 
 from __future__ import annotations
 
-import json
-from io import BytesIO
 from typing import Any
 
-import numpy as np
 from reference_tracer.arrays import Floats
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.extremes import ExtremesRow
@@ -18,22 +15,15 @@ from reference_tracer.tracer.progress import Progress, Work
 
 from . import tasks
 from .cluster import Cluster
-from .pictures import camera_json, sent_scene
+from .pictures import sent_scene
 
 
 def trade(cluster: Cluster) -> tradeoff.Every:
     """Return what has the rows of a trade measured on a cluster."""
 
     def every(choices: list[tradeoff.Choice], truth: Floats) -> Work[list[TradeRow]]:
-        color = BytesIO()
-        np.save(color, truth)
-        kept = cluster.keep(color.getvalue())
-
-        def given(choice: tradeoff.Choice) -> tuple:
-            chosen = json.dumps(vars(choice.settings))
-            return sent_scene(cluster, choice.scene), camera_json(choice.scene), chosen, kept
-
-        told = [(tasks.trade_rows, *given(choice)) for choice in choices]
+        kept = cluster.keep(truth)
+        told = [(tasks.trade_rows, sent_scene(cluster, c.scene), c.settings, kept) for c in choices]
         rows: list[TradeRow] = yield from _every(cluster, told)
         return rows
 
