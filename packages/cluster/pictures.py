@@ -10,6 +10,7 @@ from dataclasses import replace
 from itertools import islice
 
 from distributed import Future
+from reference_tracer.certified.measures import Measured
 from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
 from reference_tracer.tracer.hits import Hits, Statistics
@@ -20,7 +21,6 @@ from reference_tracer.tracer.settings import Settings
 
 from . import tasks
 from .cluster import Cluster
-from .owners import count_in, joined
 
 EACH = 6  # regions of a picture that each thread of a worker has, about: so none waits for long
 MOST = 1 << 20  # pixels of one
@@ -74,11 +74,12 @@ def _tracing(
             for part, at in islice(todo, AHEAD * threads - len(ahead)):
                 ahead.append(cluster.ask(tasks.trace, *given, part, *at))
             seen, took = yield from cluster.answer(ahead.popleft())
-            count_in(statistics, took)
+            if isinstance(seen.measures, Measured):
+                seen.measures = replace(seen.measures, scene=scene)
+            statistics.pairs_tested += took.pairs_tested
+            statistics.reasons += took.reasons
             found.append(seen)
             yield Progress((number + 1) / count)
-        if settings.method.is_proven:
-            return joined(found, scene, band, dx, dy)
         return Hits.joined(found)
 
     return trace

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import platform
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache, wraps
 from hashlib import sha256
 from pathlib import Path
@@ -14,6 +15,7 @@ import numpy as np
 import reference_tracer
 from distributed import get_worker
 from reference_tracer.arrays import Floats
+from reference_tracer.certified.measures import Measured
 from reference_tracer.methods import Method
 from reference_tracer.rendering import TRACERS, resolved
 from reference_tracer.scene import Region, Scene
@@ -24,8 +26,6 @@ from reference_tracer.study.trade import TradeRow
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.settings import Settings
-
-from .owners import Owners
 
 T = TypeVar("T")
 PROVEN = Settings(Method.CERTIFIED)
@@ -79,13 +79,19 @@ def kept(data: T) -> T:
 @_named
 def trace(
     scene: Scene, settings: Settings, reach: float, region: Region, dx: float, dy: float
-) -> tuple[Owners | Hits, Statistics]:
-    """Return what a region's rays see, and what it took."""
+) -> tuple[Hits, Statistics]:
+    """Return what a region's rays see, and what it took.
+
+    Of a certified picture t and the barycentrics follow from that: they are found where the scene
+    is, once they are asked for, and this one does not travel.
+    """
     statistics = Statistics()
     chosen = resolved(settings, statistics)
     trace_band = _done(TRACERS[chosen.method](scene, chosen, reach, statistics))
     hits = _done(trace_band(region, dx, dy))
-    return Owners.of(hits) if chosen.method.is_proven else hits, statistics
+    if isinstance(hits.measures, Measured):
+        hits.measures = replace(hits.measures, scene=Scene(scene.camera))
+    return hits, statistics
 
 
 @_named
