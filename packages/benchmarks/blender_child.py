@@ -13,14 +13,13 @@ from reference_tracer.blender.drawing.camera_object import add_camera
 from reference_tracer.blender.drawing.constant_material import emission
 from reference_tracer.scene import Mesh, Scene
 
-from . import scenes
 from .peers import fitting
 from .rays import Rays
 
 ENGINES = {"cycles": "CYCLES", "workbench": "BLENDER_WORKBENCH"}
 
 
-_opened: dict[str, Any] = {}  # the scene, the object with its mesh, and what was drawn once
+_opened: dict[str, Any] = {}  # the camera, the object with the mesh, and what was drawn once
 
 
 def suzanne(path: Path) -> None:
@@ -32,12 +31,6 @@ def suzanne(path: Path) -> None:
     mesh.vertices.foreach_get("co", vertices.ravel())
     mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
     np.savez(path, vertices=vertices, triangles=triangles)
-
-
-def open_benchmark(name: str, cache: Path, size: tuple[int, int], camera: str) -> None:
-    """Open a scene of the benchmark."""
-    scene = scenes.build(scenes.mesh_of(name, cache), *size, camera)
-    _opened.update(scene=scene, object=open_scene(scene))
 
 
 def _monkey() -> Any:
@@ -56,8 +49,8 @@ def _monkey() -> Any:
     return bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
 
 
-def open_scene(wanted: Scene) -> Any:
-    """Build a scene of the benchmark in an empty Blender; returns the object with its mesh."""
+def open_scene(wanted: Scene) -> None:
+    """Build a scene of the benchmark in an empty Blender."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     add_camera(scene, wanted.camera)
@@ -75,7 +68,7 @@ def open_scene(wanted: Scene) -> Any:
     scene.display.render_aa = "OFF"
     scene.display.shading.light = "FLAT"
     bpy.context.view_layer.update()
-    return obj
+    _opened.update(camera=wanted.camera, object=obj)
 
 
 def _mesh(wanted: Mesh) -> Any:
@@ -107,7 +100,7 @@ def bvhtree(budget: float) -> tuple[float, int]:
     Returns the seconds for the whole picture, and how many rays were cast.
     """
     tree = BVHTree.FromObject(_opened["object"], bpy.context.evaluated_depsgraph_get())
-    rays = fitting(lambda few: cast(tree, few), _opened["scene"].camera, budget)
+    rays = fitting(lambda few: cast(tree, few), _opened["camera"], budget)
     return cast(tree, rays) * rays.of / rays.count, rays.count
 
 

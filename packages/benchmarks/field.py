@@ -38,7 +38,7 @@ class Field:
         self._embreex: Embreex | None = None  # with this mesh, once it was asked for
         self._rays: Rays | None = None  # that embreex traces
         self._hits: NDArray | None = None  # triangles that it saw, (n,)
-        self._blender = BlenderPeer(cache)
+        self._blender = BlenderPeer()
 
     def close(self) -> None:
         """End what runs."""
