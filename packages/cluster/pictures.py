@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 
 from distributed import Future
@@ -29,16 +30,7 @@ AHEAD = 3  # regions that each thread is given at a time
 
 def tracer(cluster: Cluster) -> Tracer:
     """Return what traces on a cluster, in place of a method's own."""
-
-    def prepare(
-        scene: Scene, settings: Settings, reach: float, statistics: Statistics
-    ) -> Work[TraceBand]:
-        # What it counts of the whole picture is said as of any other.
-        yield from TRACERS[settings.method](scene, settings, reach, statistics)
-        statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers")
-        return _tracing(cluster, scene, settings, reach, statistics)
-
-    return prepare
+    return partial(_prepared, cluster)
 
 
 def sent_scene(cluster: Cluster, scene: Scene) -> Future:
@@ -48,10 +40,13 @@ def sent_scene(cluster: Cluster, scene: Scene) -> Future:
     return cluster.sent[1]
 
 
-def _tracing(
+def _prepared(
     cluster: Cluster, scene: Scene, settings: Settings, reach: float, statistics: Statistics
-) -> TraceBand:
+) -> Work[TraceBand]:
     """Return what traces the bands of a picture, of which some regions are given away ahead."""
+    # What it counts of the whole picture is said as of any other.
+    yield from TRACERS[settings.method](scene, settings, reach, statistics)
+    statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers")
     given, region = (sent_scene(cluster, scene), settings, reach), scene.camera.region
     threads = sum(cluster.workers().values())
     rows = region.height * sum(len(each.rays()) for each in rounds(settings))

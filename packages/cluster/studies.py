@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from distributed import Future
 from reference_tracer.arrays import Floats
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.extremes import ExtremesRow
@@ -18,32 +19,29 @@ from .cluster import Cluster
 from .pictures import sent_scene
 
 
-def trade(cluster: Cluster) -> tradeoff.Every:
-    """Return what has the rows of a trade measured on a cluster."""
-
-    def every(choices: list[tradeoff.Choice], truth: Floats) -> Work[list[TradeRow]]:
-        kept = cluster.keep(truth)
-        told = [(tasks.trade_rows, sent_scene(cluster, c.scene), c.settings, kept) for c in choices]
-        rows: list[TradeRow] = yield from _every(cluster, told)
-        return rows
-
-    return every
-
-
-def extremes_of(cluster: Cluster) -> extremes.Every:
-    """Return what has the rows of the extremes found on a cluster."""
-
-    def every(scenes: extremes.Scenes, *options: Any) -> Work[list[ExtremesRow]]:
-        told = [(tasks.extremes_rows, s.name, scale, *options) for s, scale in scenes]
-        rows: list[ExtremesRow] = yield from _every(cluster, told)
-        return rows
-
-    return every
+def trade(cluster: Cluster, choices: list[tradeoff.Choice], truth: Floats) -> Work[list[TradeRow]]:
+    """Have the rows of a trade measured on a cluster."""
+    kept = cluster.keep(truth)
+    return _rows(
+        cluster,
+        [
+            cluster.ask(tasks.trade_rows, sent_scene(cluster, c.scene), c.settings, kept)
+            for c in choices
+        ],
+    )
 
 
-def _every(cluster: Cluster, told: list[tuple]) -> Work[list]:
-    """Have tasks done; return the rows of all."""
-    asked = [cluster.ask(task, *given) for task, *given in told]
+def extremes_of(
+    cluster: Cluster, scenes: extremes.Scenes, *options: Any
+) -> Work[list[ExtremesRow]]:
+    """Have the rows of the extremes found on a cluster."""
+    return _rows(
+        cluster, [cluster.ask(tasks.extremes_rows, s.name, scale, *options) for s, scale in scenes]
+    )
+
+
+def _rows(cluster: Cluster, asked: list[Future]) -> Work[list]:
+    """Return the rows of all tasks."""
     rows = []
     for k, one in enumerate(asked):
         yield Progress(k / len(asked))
