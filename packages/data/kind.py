@@ -40,8 +40,13 @@ class Kind:
     loose: Callable[[Seen], Floats] = lambda seen: np.zeros(len(seen.t))
     empty: tuple[float, ...] = (0.0,)  # what all channels have where nothing is
     space: str = ""  # of vectors: 'world' or 'camera'
-    encoded: bool = False  # -1 to 1 is stored as 0 to 1
+    range: str = ""  # of normals: 'signed', -1 to 1, or 'unit', stored as 0 to 1
     presumed: str = ""  # what is taken to be so, as nobody says it
+
+    @property
+    def encoded(self) -> bool:
+        """Whether -1 to 1 is stored as 0 to 1."""
+        return self.range == "unit"
 
     @property
     def variant(self) -> str:
