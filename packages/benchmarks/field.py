@@ -93,7 +93,7 @@ class Field:
             return seconds * rays.of / rays.count
 
         def ids() -> float:
-            return embreex.ids(rays) * rays.of / rays.count
+            return embreex.trace(rays, whole=False)[0] * rays.of / rays.count
 
         facts: Facts = {"rays": rays.count}
         out = {"embreex_trace": Runner(traced, facts=facts), "embreex_ids": Runner(ids)}
