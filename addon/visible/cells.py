@@ -10,15 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..arrays import Array, Floats, Index, parts
-from ..certified.bounds import Fractions, plane_fractions
-from ..certified.rounding import rounding
+from ..arrays import Array, Floats, parts
 from ..certified.sweep.depth_buffer import ROUNDING, nearness
 from ..scene import Region, Scene
-from ..tracer.camera import camera_rays, film_positions
+from ..tracer.camera import film_positions
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.progress import Work
-from ..tracer.vector import spread
 from .faces import Faces
 from .hiding import patches
 from .sights import numbers
@@ -27,7 +24,7 @@ from .sights import numbers
 _RAYS = 1 << 21
 _RAYS_OF_FACE = 64
 TOP = 7  # the level of the largest cells, which may be any number beside one another
-TOGETHER = 1 << 16  # cells that are looked at together
+_TOGETHER = 1 << 16  # cells that are looked at together
 
 
 def scale_of(scene: Scene) -> int:
@@ -60,8 +57,7 @@ class Cells:
         camera = scene.camera
         region = camera.region
         shape = region.height, region.width
-        self.corner = region.x0 - 0.5, region.y0 - 0.5
-        self.size = region.width, region.height
+        self.corner = np.array([[region.x0], [region.y0]]) - 0.5
         name = numbers(faces, hits)
         pixel = np.full(faces.count, NOTHING)
         own = np.flatnonzero(name != NOTHING)
@@ -92,9 +88,9 @@ class Cells:
         """Find what several faces hide together: what a corner sees, and what continues it."""
         finest = self.hidden[0]
         open_ = np.argwhere(finest == -np.inf).T[::-1]
-        for part in parts(open_.shape[1], TOGETHER):
+        for part in parts(open_.shape[1], _TOGETHER):
             cell = open_[:, part]
-            low, high = self.film(0, cell)
+            low = self.corner + cell
             name, least = (
                 np.stack([v[cell[1] + j, cell[0] + i] for j in (0, 1) for i in (0, 1)])
                 for v in (self._name, self._least)
@@ -104,77 +100,20 @@ class Cells:
             for corner in np.where(name >= 0, least, np.inf).argsort(axis=0):
                 own = name[corner, np.arange(len(found))]
                 rows = np.flatnonzero((own >= 0) & (found == -np.inf))
-                at = cell[:, rows] + np.stack((corner[rows] % 2, corner[rows] // 2))
-                at = at + np.array(self.corner)[:, None]
-                found[rows] = patches(faces, own[rows], at, low[:, rows], high[:, rows])
+                at = low[:, rows] + np.stack((corner[rows] % 2, corner[rows] // 2))
+                found[rows] = patches(faces, own[rows], at, low[:, rows], low[:, rows] + 1)
                 yield None
             finest[cell[1], cell[0]] = found
         for _ in range(TOP):
             last = np.minimum(self.hidden[-1][::2], self.hidden[-1][1::2])
             self.hidden.append(np.minimum(last[:, ::2], last[:, 1::2]))
 
-    def film(self, level: int, cell: Index) -> tuple[Floats, Floats]:
-        """Return where cells (2, n) begin and end on the film, within the region, (2, n) each."""
-        size = 2.0**level
-        corner = np.array(self.corner)[:, None]
-        end = np.array(self.size)[:, None] + 0.5
-        low, high = (np.clip(at * size, 0.5, end) for at in (cell, cell + 1))
-        return corner + low, corner + high
-
-    def cells_of(self, faces: Faces, some: Index) -> tuple[Index, Index, Index]:
-        """Return the level of cells about as large as each face, 0 to TOP; and all it may reach.
-
-        Returns
-        -------
-        level : (n,) int
-        which : (c,) int
-            The number of the face of each cell.
-        cell : (2, c) int
-        """
-        at = np.array(self.corner)[:, None]
-        low, high = faces.low[:, some] - at, faces.high[:, some] - at
-        level = np.clip(np.frexp(np.maximum(*(high - low)))[1], 0, TOP)
-        first, last = np.floor(np.stack((low, high)) * 2.0**-level).astype(np.int64)
-        width, height = last - first + 1
-        which, number = spread(np.arange(len(some)), width * height)
-        y, x = np.divmod(number, width[which])
-        return level, which, np.stack((x, y)) + first[:, which]
-
-
-def quarters(cell: Index) -> Index:
-    """Return the cells of the next level in n cells (2, n), (2, 4 n)."""
-    x, y = 2 * cell
-    four = np.stack([(x + i, y + j) for j in (0, 1) for i in (0, 1)], axis=2)
-    return four.reshape(2, -1)
+    def hidden_from(self, level: int, low: Floats) -> Floats:
+        """Return the nearness that hides what is farther in cells that begin at `low` (2, n)."""
+        x, y = ((low - self.corner) * 2.0**-level).astype(np.intp)
+        return self.hidden[level][y, x]
 
 
 def _of_corners(values: Array) -> Array:
     """Return what is known of the corners of cells, (4, h, w), from (h + 1, w + 1)."""
     return np.stack((values[:-1, :-1], values[:-1, 1:], values[1:, :-1], values[1:, 1:]))
-
-
-def behind_planes(scene: Scene, faces: Faces, low: Floats, high: Floats) -> Floats:
-    """Return the nearness that infinite planes have at least in n boxes, (n,); -inf if none.
-
-    There is room for the rounding of the rays at the corners, and of those between.
-    """
-    camera = scene.camera
-    parallel = camera.projection.shares_direction
-    out = np.full(low.shape[1], -np.inf)
-    for plane in scene.planes:
-        x, y = np.stack((low, high), axis=1)
-        rays = camera_rays(camera, np.concatenate((*x, *x)), np.concatenate((*y, *y[::-1])))
-        found = plane_fractions(rays, plane.point[:, None], plane.normal[:, None])
-        off = 2 * rounding(scene).ray * np.abs(plane.normal).max()
-        moved = Fractions(
-            found.numerator,
-            found.numerator_error + (off if parallel else 0.0),
-            found.denominator,
-            found.denominator_error + (0.0 if parallel else off),
-        )
-        first, last = (np.broadcast_to(end, rays.count) for end in moved.interval())
-        least, most = nearness(camera, first, last, ROUNDING)
-        sure = np.isfinite(last) & faces.clip.inside(least, most)
-        least = np.where(sure, least, -np.inf).reshape(4, -1).min(axis=0)
-        out = np.maximum(out, least)
-    return out

@@ -51,6 +51,7 @@ class Faces:
     `start` (k + 1,) is the first of each instance; `corners` (3, m) indexes `points` (3, v), in
     world space. Corners with the same coordinates have the same number in `welded` (v,), and those
     that are seen as one point in `shown` (v,).
+    `at` (2, 2, v) is from where to where each appears, `room` (v,) how far off the middle may be.
     `low`, `high` (2, m) enclose each face on the film, `near`, `far` (m,) its depth; t is at most
     `last` (m,); `nearest` (m,) bounds its nearness; one `in_clip` (m,) surely is in the clip range.
     `turn` (m,) is the side that the camera sees: 1 the back, -1 the front, 0 none. That is the sign
@@ -109,14 +110,13 @@ class Faces:
         self.in_clip = (self.near * (1 - room) > camera.clip_start) & (self.last < camera.clip_end)
         self.nearest = self.of_corners(v.nearest).max(axis=0, initial=-np.inf)
         self.nearest[~np.isfinite(self.of_corners(v.depth)).all(axis=0)] = np.inf
-        region = camera.region
-        first = np.array([[region.x0], [region.y0]], np.float64)
-        last = np.array([[region.x1], [region.y1]], np.float64)
+        r = camera.region
+        first, last = np.array([[[r.x0], [r.y0]], [[r.x1], [r.y1]]], np.float64)
         # As film.py has it: what is farther beside the picture truly lies on that side of it.
         beyond = 2 * max(camera.width, camera.height)
         constant, slope = self.film.place
-        margin = constant + (slope + beyond * self.film.weight) * v.size
-        margin = 1.01 * margin / v.w + 2 * DELTA
+        self.room = 1.01 * (constant + (slope + beyond * self.film.weight) * v.size) / v.w
+        margin = self.room + 2 * DELTA
         at = np.clip((v.x, v.y), -beyond, beyond)
         self.at = np.stack((at - margin, at + margin))
         self.at[:, :, ~v.ahead] = np.array([[[-np.inf]], [[np.inf]]])

@@ -8,7 +8,7 @@ from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.visible.faces import Faces
 from reference_tracer.visible.hiding import patches
-from reference_tracer.visible.points import points_of
+from reference_tracer.visible.polygons import middles
 
 from .test_visible import ORTHOGRAPHIC, camera, scene_of, triangles
 
@@ -39,7 +39,7 @@ def test_what_is_traced_for_a_cell_is_in_it():
     faces = result_of(Faces.of(scene_of(triangles(points), camera=camera(ORTHOGRAPHIC))))
     every = np.arange(200)
     low = (tip[0] + 2) * 4 + random.choice([-1e-11, 1e-11], (2, 200))
-    at = points_of(faces, every, low, low + 0.25)
+    at = middles(faces, every, low, low + 0.25)
     assert (low <= at).all() and (at <= low + 0.25).all()
 
 

@@ -263,3 +263,18 @@ def test_a_panorama_is_refused():
     own = camera(PROJECTIONS["equirectangular"], window=ViewWindow(-1, 1, -1, 1))
     with pytest.raises(SceneError, match="'Camera' is equirectangular"):
         visible(scene_of(cube(), camera=own))
+
+
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+def test_what_sticks_out_of_a_plane_by_a_rounding_is_hardly_seen(projection):
+    """A strip that few rays meet has a witness; a tip that none meets may show next to nothing."""
+    turns = np.linspace(0, 2 * np.pi, 9)[:-1]
+    ring = np.stack((np.cos(turns), np.sin(turns), np.full(8, 2.0**-53)), axis=1)
+    points = np.concatenate((ring, ring * (0.5, 0.5, 0) - (0, 0, 0.5)))
+    bands = [t for k in range(8) for n in [(k + 1) % 8] for t in ((k, n, k + 8), (n, n + 8, k + 8))]
+    plane = Plane(0, np.zeros(3), np.array([0.0, 0.0, 1.0]), GREY[0])
+    tilt = np.array([[1, 0, 0], [0, 0.28, -0.96], [0, 0.96, 0.28]])
+    own = camera(projection, at=4 * tilt[:, 2], axes=tilt)
+    found = judged(scene_of((points, bands), camera=own, planes=(plane,)))
+    assert (found.area < 1e-6).all()
+    assert (found.seen[::2] == SEEN).sum() > 5 and (found.seen[1::2] == UNDECIDED).any()
