@@ -10,16 +10,16 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 from reference_tracer.blender.drawing.camera_object import add_camera
+from reference_tracer.blender.drawing.constant_material import emission
 from reference_tracer.scene import Mesh, Scene
 
-from . import scenes
 from .peers import fitting
 from .rays import Rays
 
 ENGINES = {"cycles": "CYCLES", "workbench": "BLENDER_WORKBENCH"}
 
 
-_opened: dict[str, Any] = {}  # the scene, the object with its mesh, and what was drawn once
+_opened: dict[str, Any] = {}  # the camera, the object with the mesh, and what was drawn once
 
 
 def suzanne(path: Path) -> None:
@@ -31,12 +31,6 @@ def suzanne(path: Path) -> None:
     mesh.vertices.foreach_get("co", vertices.ravel())
     mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
     np.savez(path, vertices=vertices, triangles=triangles)
-
-
-def open_benchmark(name: str, cache: Path, size: tuple[int, int], camera: str) -> None:
-    """Open a scene of the benchmark."""
-    scene = scenes.build(scenes.mesh_of(name, cache), *size, camera)
-    _opened.update(scene=scene, object=open_scene(scene))
 
 
 def _monkey() -> Any:
@@ -55,14 +49,16 @@ def _monkey() -> Any:
     return bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
 
 
-def open_scene(wanted: Scene) -> Any:
-    """Build a scene of the benchmark in an empty Blender; returns the object with its mesh."""
+def open_scene(wanted: Scene) -> None:
+    """Build a scene of the benchmark in an empty Blender."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     add_camera(scene, wanted.camera)
     obj = bpy.data.objects.new("Mesh", _mesh(wanted.meshes[0]))
     scene.collection.objects.link(obj)
-    obj.data.materials.append(_emission())
+    material = bpy.data.materials.new("Constant")
+    emission(material)  # what costs Cycles least: it sends no further ray
+    obj.data.materials.append(material)
     render, cycles = scene.render, scene.cycles
     render.threads_mode, render.threads = "FIXED", 1
     render.use_compositing = render.use_sequencer = False
@@ -72,7 +68,7 @@ def open_scene(wanted: Scene) -> Any:
     scene.display.render_aa = "OFF"
     scene.display.shading.light = "FLAT"
     bpy.context.view_layer.update()
-    return obj
+    _opened.update(camera=wanted.camera, object=obj)
 
 
 def _mesh(wanted: Mesh) -> Any:
@@ -86,20 +82,6 @@ def _mesh(wanted: Mesh) -> Any:
     mesh.polygons.foreach_set("loop_start", np.arange(0, 3 * count, 3, dtype=np.int32))
     mesh.update(calc_edges=True)
     return mesh
-
-
-def _emission() -> Any:
-    """Return the material that costs Cycles least: it sends no further ray."""
-    material = bpy.data.materials.new("Constant")
-    if not material.node_tree:  # before 5.0
-        material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    emission, output = (
-        tree.nodes.new(f"ShaderNode{name}") for name in ("Emission", "OutputMaterial")
-    )
-    tree.links.new(emission.outputs[0], output.inputs["Surface"])
-    return material
 
 
 def cast(tree: BVHTree, rays: Rays) -> float:
@@ -118,7 +100,7 @@ def bvhtree(budget: float) -> tuple[float, int]:
     Returns the seconds for the whole picture, and how many rays were cast.
     """
     tree = BVHTree.FromObject(_opened["object"], bpy.context.evaluated_depsgraph_get())
-    rays = fitting(lambda few: cast(tree, few), _opened["scene"].camera, budget)
+    rays = fitting(lambda few: cast(tree, few), _opened["camera"], budget)
     return cast(tree, rays) * rays.of / rays.count, rays.count
 
 

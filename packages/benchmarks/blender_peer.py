@@ -30,11 +30,10 @@ class BlenderPeer:
     Each question raises a MissingPeerError if there is no bpy, it fails, or the process ends.
     """
 
-    def __init__(self, cache: Path) -> None:
-        """Start nothing yet; `cache` is the folder with Suzanne."""
-        self._cache = cache
+    def __init__(self) -> None:
+        """Start nothing yet."""
         self._pool: ProcessPoolExecutor | None = None
-        self._opened: tuple[Any, ...] = ()
+        self._opened: Scene | None = None
         self._folder = TemporaryDirectory(prefix="reftrace-bench-", ignore_cleanup_errors=True)
         # What it prints is not shown, but for the last line, where it ends by itself.
         self._printed = Path(self._folder.name, "printed.txt")
@@ -46,11 +45,8 @@ class BlenderPeer:
 
     def open(self, scene: Scene) -> None:
         """Build a scene of the benchmark in Blender, in place of the one before."""
-        camera = scene.camera
-        size = camera.width, camera.height
-        opened = scene.meshes[0].name, self._cache, size, camera.projection.name
-        self._ask("open_benchmark", *opened)
-        self._opened = opened
+        self._ask("open_scene", scene)
+        self._opened = scene
 
     def bvhtree(self, budget: float) -> Timed:
         """Cast the open scene's rays, or a sample that takes about `budget` seconds."""
@@ -76,7 +72,7 @@ class BlenderPeer:
             printed = (str(self._printed),)
             self._pool = ProcessPoolExecutor(1, get_context("spawn"), _begin, printed)
             if self._opened:  # it ended in between
-                self._ask("open_benchmark", *self._opened)
+                self._ask("open_scene", self._opened)
         try:
             return self._pool.submit(do, name, *arguments).result()
         except BrokenProcessPool:

@@ -38,7 +38,7 @@ class Field:
         self._embreex: Embreex | None = None  # with this mesh, once it was asked for
         self._rays: Rays | None = None  # that embreex traces
         self._hits: NDArray | None = None  # triangles that it saw, (n,)
-        self._blender = BlenderPeer(cache)
+        self._blender = BlenderPeer()
 
     def close(self) -> None:
         """End what runs."""
@@ -93,7 +93,7 @@ class Field:
             return seconds * rays.of / rays.count
 
         def ids() -> float:
-            return embreex.ids(rays) * rays.of / rays.count
+            return embreex.trace(rays, whole=False)[0] * rays.of / rays.count
 
         facts: Facts = {"rays": rays.count}
         out = {"embreex_trace": Runner(traced, facts=facts), "embreex_ids": Runner(ids)}

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from reference_tracer.scene import Camera, Mesh
 
 from .rays import Rays, rays_of
@@ -75,19 +74,15 @@ class Embreex:
         self._scene.run(*nothing)  # the first query commits the scene, which builds its tree
         return time.process_time() - began
 
-    def trace(self, rays: Rays) -> tuple[float, dict[str, NDArray]]:
-        """Trace rays; returns seconds, and `primID` (-1 for nothing), `tfar`, `u`, `v`, (n,)."""
-        return self._timed(rays, output=1)
+    def trace(self, rays: Rays, whole: bool = True) -> tuple[float, Any]:
+        """Trace rays; returns seconds, and `primID` (-1 for nothing), `tfar`, `u`, `v`, (n,).
 
-    def ids(self, rays: Rays) -> float:
-        """Trace rays, asking for triangles alone; returns seconds."""
-        return self._timed(rays)[0]
-
-    def _timed(self, rays: Rays, **asked: int) -> tuple[float, Any]:
+        If it is not asked for the whole of that, triangles alone.
+        """
         if self._scene is None:
             self.build()
         began = time.process_time()
-        found = self._scene.run(rays.origins, rays.directions, dists=rays.length, **asked)
+        found = self._scene.run(rays.origins, rays.directions, dists=rays.length, output=whole)
         return time.process_time() - began, found
 
 

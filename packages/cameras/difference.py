@@ -102,11 +102,9 @@ def explained(found: CameraDifference, own: Camera, other: Camera) -> CameraDiff
     """Return what was measured of two cameras with what explains it, if they differ."""
     if found.agrees:
         return found
-    explanations = tuple(_explanations(own, other, found.allowed))
-    steps = explanations[0] if explanations else ()
-    is_moved = any(step.fault.name == "camera_moved" for step in steps)
-    unit = _unit(own, other) if is_moved else None
-    return replace(found, explanations=explanations, unit=unit)
+    found = replace(found, explanations=tuple(_explanations(own, other, found.allowed)))
+    is_moved = any(step.fault.name == "camera_moved" for step in found.steps)
+    return replace(found, unit=_unit(own, other) if is_moved else None)
 
 
 def _unit(own: Camera, other: Camera) -> float | None:

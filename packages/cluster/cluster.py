@@ -15,7 +15,9 @@ from typing import Any
 
 from distributed import Client, Future
 from distributed.client import FutureCancelledError
+from reference_tracer.arrays import Floats
 from reference_tracer.errors import words
+from reference_tracer.scene import Scene
 from reference_tracer.tracer.progress import Work
 
 from . import tasks
@@ -35,23 +37,23 @@ class Cluster:
 
     client: Client
     address: str
-    sent: tuple[tuple, Future] | None = None  # the parts of the last scene, and the scene there
+    sent: tuple[Scene, Future] | None = None  # the last scene, and where it is there
 
     def workers(self) -> dict[str, int]:
         """Return the address of each worker, and how many tasks it does at a time."""
         return self.client.nthreads()
 
-    def keep(self, data: bytes) -> Future:
-        """Send bytes, once; a task that is given the result is given the bytes.
+    def keep(self, data: Scene | Floats) -> Future:
+        """Send data, once; a task that is given the result is given the data.
 
         Dask brings them to who needs them, from one worker to another.
         """
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # that it is large
-            return self.client.submit(tasks.kept, data)
+            return self.client.submit(tasks.kept, data, pure=False)
 
     def ask(self, task: Callable, *arguments: Any) -> Future:
-        """Have a task done, with plain arguments."""
+        """Have a task done."""
         return self.client.submit(task, tasks.about(), *arguments, retries=RETRIES, pure=False)
 
     def answer(self, asked: Future) -> Work[Any]:

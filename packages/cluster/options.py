@@ -5,6 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
+from functools import partial
 from typing import Any
 
 from reference_tracer.cli.arguments import Place
@@ -48,8 +49,8 @@ def _of_workers(address: str, name: str) -> Iterator[dict[str, Any]]:
         from . import pictures, studies
 
         if name == "trade":
-            yield {"every": studies.trade(cluster)}
+            yield {"every": partial(studies.trade, cluster)}
         elif name == "extremes":
-            yield {"every": studies.extremes_of(cluster)}
+            yield {"every": partial(studies.extremes_of, cluster)}
         else:
             yield {"tracer": pictures.tracer(cluster)}

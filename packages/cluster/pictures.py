@@ -5,16 +5,13 @@ Of a certified picture workers say who owns a ray: t, barycentrics and colours a
 
 from __future__ import annotations
 
-import json
 from collections import deque
 from dataclasses import replace
+from functools import partial
 from itertools import islice
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
-import numpy as np
 from distributed import Future
-from reference_tracer.files.scenes import save_scene
+from reference_tracer.certified.measures import Measured
 from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
 from reference_tracer.tracer.hits import Hits, Statistics
@@ -25,7 +22,6 @@ from reference_tracer.tracer.settings import Settings
 
 from . import tasks
 from .cluster import Cluster
-from .owners import count_in, joined
 
 EACH = 6  # regions of a picture that each thread of a worker has, about: so none waits for long
 MOST = 1 << 20  # pixels of one
@@ -34,45 +30,24 @@ AHEAD = 3  # regions that each thread is given at a time
 
 def tracer(cluster: Cluster) -> Tracer:
     """Return what traces on a cluster, in place of a method's own."""
-
-    def prepare(
-        scene: Scene, settings: Settings, reach: float, statistics: Statistics
-    ) -> Work[TraceBand]:
-        # What it counts of the whole picture is said as of any other.
-        yield from TRACERS[settings.method](scene, settings, reach, statistics)
-        statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers")
-        return _tracing(cluster, scene, settings, reach, statistics)
-
-    return prepare
+    return partial(_prepared, cluster)
 
 
 def sent_scene(cluster: Cluster, scene: Scene) -> Future:
-    """Return a scene on the workers, its camera aside; it is sent where it is new."""
-    parts = scene.meshes, scene.instances, scene.planes, scene.background.tobytes()
-    if not _is_same(parts, cluster.sent[0] if cluster.sent else ()):
-        with TemporaryDirectory() as folder:
-            path = Path(folder) / "scene.npz"
-            save_scene(path, scene)
-            cluster.sent = parts, cluster.keep(path.read_bytes())
-    assert cluster.sent
+    """Return a scene on the workers; it is sent where it is new."""
+    if not cluster.sent or cluster.sent[0] is not scene:
+        cluster.sent = scene, cluster.keep(scene)
     return cluster.sent[1]
 
 
-def _is_same(parts: tuple, others: tuple) -> bool:
-    return all(a is b or a == b for a, b in zip(parts, others, strict=True)) if others else False
-
-
-def camera_json(scene: Scene) -> str:
-    """Return a scene's camera as JSON."""
-    return json.dumps(scene.camera.to_dict(), default=np.generic.item)
-
-
-def _tracing(
+def _prepared(
     cluster: Cluster, scene: Scene, settings: Settings, reach: float, statistics: Statistics
-) -> TraceBand:
+) -> Work[TraceBand]:
     """Return what traces the bands of a picture, of which some regions are given away ahead."""
-    camera, region = camera_json(scene), scene.camera.region
-    given = sent_scene(cluster, scene), camera, json.dumps(vars(settings)), reach
+    # What it counts of the whole picture is said as of any other.
+    yield from TRACERS[settings.method](scene, settings, reach, statistics)
+    statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers")
+    given, region = (sent_scene(cluster, scene), settings, reach), scene.camera.region
     threads = sum(cluster.workers().values())
     rows = region.height * sum(len(each.rays()) for each in rounds(settings))
     # Each part takes a look at every triangle: few are best.
@@ -92,14 +67,14 @@ def _tracing(
         count = len(parts(band))
         for number in range(count):
             for part, at in islice(todo, AHEAD * threads - len(ahead)):
-                corners = tuple(vars(part).values())
-                ahead.append(cluster.ask(tasks.trace, *given, corners, *at))
+                ahead.append(cluster.ask(tasks.trace, *given, part, *at))
             seen, took = yield from cluster.answer(ahead.popleft())
-            count_in(statistics, took)
+            if isinstance(seen.measures, Measured):
+                seen.measures = replace(seen.measures, scene=scene)
+            statistics.pairs_tested += took.pairs_tested
+            statistics.reasons += took.reasons
             found.append(seen)
             yield Progress((number + 1) / count)
-        if settings.method.is_proven:
-            return joined(found, scene, band, dx, dy)
         return Hits.joined(found)
 
     return trace

@@ -5,11 +5,9 @@ Times and memory are the worker's own.
 
 from __future__ import annotations
 
-import json
-from io import BytesIO
 from typing import Any
 
-import numpy as np
+from distributed import Future
 from reference_tracer.arrays import Floats
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.extremes import ExtremesRow
@@ -18,42 +16,32 @@ from reference_tracer.tracer.progress import Progress, Work
 
 from . import tasks
 from .cluster import Cluster
-from .pictures import camera_json, sent_scene
+from .pictures import sent_scene
 
 
-def trade(cluster: Cluster) -> tradeoff.Every:
-    """Return what has the rows of a trade measured on a cluster."""
-
-    def every(choices: list[tradeoff.Choice], truth: Floats) -> Work[list[TradeRow]]:
-        color = BytesIO()
-        np.save(color, truth)
-        kept = cluster.keep(color.getvalue())
-
-        def given(choice: tradeoff.Choice) -> tuple:
-            chosen = json.dumps(vars(choice.settings))
-            return sent_scene(cluster, choice.scene), camera_json(choice.scene), chosen, kept
-
-        told = [(tasks.trade_rows, *given(choice)) for choice in choices]
-        rows: list[TradeRow] = yield from _every(cluster, told)
-        return rows
-
-    return every
+def trade(cluster: Cluster, choices: list[tradeoff.Choice], truth: Floats) -> Work[list[TradeRow]]:
+    """Have the rows of a trade measured on a cluster."""
+    kept = cluster.keep(truth)
+    return _rows(
+        cluster,
+        [
+            cluster.ask(tasks.trade_rows, sent_scene(cluster, c.scene), c.settings, kept)
+            for c in choices
+        ],
+    )
 
 
-def extremes_of(cluster: Cluster) -> extremes.Every:
-    """Return what has the rows of the extremes found on a cluster."""
-
-    def every(scenes: extremes.Scenes, *options: Any) -> Work[list[ExtremesRow]]:
-        told = [(tasks.extremes_rows, s.name, scale, *options) for s, scale in scenes]
-        rows: list[ExtremesRow] = yield from _every(cluster, told)
-        return rows
-
-    return every
+def extremes_of(
+    cluster: Cluster, scenes: extremes.Scenes, *options: Any
+) -> Work[list[ExtremesRow]]:
+    """Have the rows of the extremes found on a cluster."""
+    return _rows(
+        cluster, [cluster.ask(tasks.extremes_rows, s.name, scale, *options) for s, scale in scenes]
+    )
 
 
-def _every(cluster: Cluster, told: list[tuple]) -> Work[list]:
-    """Have tasks done; return the rows of all."""
-    asked = [cluster.ask(task, *given) for task, *given in told]
+def _rows(cluster: Cluster, asked: list[Future]) -> Work[list]:
+    """Return the rows of all tasks."""
     rows = []
     for k, one in enumerate(asked):
         yield Progress(k / len(asked))

@@ -1,22 +1,21 @@
-"""What workers do: bytes, numbers and texts come in, what they find goes out."""
+"""What workers do: a scene and how it is traced come in, what they find goes out."""
 
 from __future__ import annotations
 
 import json
 import platform
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache, wraps
 from hashlib import sha256
-from io import BytesIO
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 import numpy as np
 import reference_tracer
 from distributed import get_worker
-from reference_tracer.files.checked_json import camera_of
-from reference_tracer.files.scenes import load_scene
+from reference_tracer.arrays import Floats
+from reference_tracer.certified.measures import Measured
 from reference_tracer.methods import Method
 from reference_tracer.rendering import TRACERS, resolved
 from reference_tracer.scene import Region, Scene
@@ -27,8 +26,6 @@ from reference_tracer.study.trade import TradeRow
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.settings import Settings
-
-from .owners import Owners
 
 T = TypeVar("T")
 PROVEN = Settings(Method.CERTIFIED)
@@ -74,44 +71,34 @@ def _done(work: Work[T]) -> T:
     raise RuntimeError("cancelled")
 
 
-def kept(data: bytes) -> bytes:
-    """Return bytes, which tasks to come are given."""
+def kept(data: T) -> T:
+    """Return data, which tasks to come are given."""
     return data
-
-
-@lru_cache(maxsize=2)
-def _scene(data: bytes) -> Scene:
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "scene.npz"
-        path.write_bytes(data)
-        return load_scene(path)
-
-
-@lru_cache(maxsize=2)  # a scene keeps tables once they are made
-def _seen(scene: bytes, camera: str) -> Scene:
-    return _scene(scene).seen_by(camera_of(json.loads(camera)))
 
 
 @_named
 def trace(
-    scene: bytes, camera: str, settings: str, reach: float, region: tuple, dx: float, dy: float
-) -> tuple[Owners | Hits, Statistics]:
-    """Return what a region's rays see, and what it took."""
-    seen, statistics = _seen(scene, camera), Statistics()
-    chosen = resolved(Settings(**json.loads(settings)), statistics)
-    trace_band = _done(TRACERS[chosen.method](seen, chosen, reach, statistics))
-    hits = _done(trace_band(Region(*region), dx, dy))
-    return Owners.of(hits) if chosen.method.is_proven else hits, statistics
+    scene: Scene, settings: Settings, reach: float, region: Region, dx: float, dy: float
+) -> tuple[Hits, Statistics]:
+    """Return what a region's rays see, and what it took.
+
+    Of a certified picture t and the barycentrics follow from that: they are found where the scene
+    is, once they are asked for, and this one does not travel.
+    """
+    statistics = Statistics()
+    chosen = resolved(settings, statistics)
+    trace_band = _done(TRACERS[chosen.method](scene, chosen, reach, statistics))
+    hits = _done(trace_band(region, dx, dy))
+    if isinstance(hits.measures, Measured):
+        hits.measures = replace(hits.measures, scene=Scene(scene.camera))
+    return hits, statistics
 
 
 @_named
-def trade_rows(scene: bytes, camera: str, settings: str, truth: bytes) -> list[TradeRow]:
+def trade_rows(scene: Scene, settings: Settings, truth: Floats) -> list[TradeRow]:
     """Return a row of the trade; it is held against the colour `truth` (h, w, 4)."""
-    seen = _seen(scene, camera)
-    color = np.load(BytesIO(truth), allow_pickle=False)
-    wanted = tradeoff.Choice(Settings(**json.loads(settings)), seen)
-    proven = tradeoff.Choice(PROVEN, seen)
-    return _done(tradeoff.rows_of([proven, wanted], color))[-1:]
+    choices = [tradeoff.Choice(each, scene) for each in (PROVEN, settings)]
+    return _done(tradeoff.rows_of(choices, truth))[-1:]
 
 
 @_named

@@ -13,6 +13,7 @@ from pathlib import Path
 import bpy
 from mathutils import Matrix
 from reference_tracer.blender.drawing.camera_object import add_camera
+from reference_tracer.blender.drawing.constant_material import emission
 
 from .scenes import PALETTE, Item, KitScene, Sheared, kit_scenes
 from .shapes import Shape
@@ -55,12 +56,7 @@ def _material(color: int) -> bpy.types.Material:
     material = bpy.data.materials.new(name)
     rgba = (*PALETTE[color].tolist(), 1.0)
     material.diffuse_color = rgba
-    material.use_nodes = True
-    nodes = material.node_tree.nodes
-    nodes.clear()
-    emission, output = nodes.new("ShaderNodeEmission"), nodes.new("ShaderNodeOutputMaterial")
-    emission.inputs["Color"].default_value = rgba
-    material.node_tree.links.new(emission.outputs["Emission"], output.inputs["Surface"])
+    emission(material).default_value = rgba
     return material
 
 

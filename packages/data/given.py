@@ -5,8 +5,9 @@ What is not chosen is told from the data: the convention in which the most pixel
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import product, starmap
 from pathlib import Path
 
 import numpy as np
@@ -28,12 +29,12 @@ from .picture import DataPicture
 from .step import Step
 
 NO_HIT = 1e10  # Blender's own depth where nothing is hit; as much is no distance
-KINDS: dict[str, Callable[[str, str], Kind]] = {
-    "depth": lambda space, range_: DEPTH,
-    "distance": lambda space, range_: DISTANCE,
-    "normals": vectors.normals,
-    "positions": lambda space, range_: vectors.positions(space),
-    "ids": lambda space, range_: ids.kind_of({}),
+KINDS: dict[str, tuple[Kind, ...]] = {  # each in all its conventions
+    "depth": (DEPTH,),
+    "distance": (DISTANCE,),
+    "normals": tuple(starmap(vectors.normals, product(vectors.SPACES, vectors.RANGES))),
+    "positions": tuple(map(vectors.positions, vectors.SPACES)),
+    "ids": (ids.kind_of({}),),
 }
 
 
@@ -60,7 +61,7 @@ class GivenData:
         if self.kind not in KINDS:
             raise ValueError(f"kind is {self.kind!r}; it must be one of {', '.join(KINDS)}")
         if self.scale is not None:
-            if not KINDS[self.kind]("world", "unit").unit:
+            if not KINDS[self.kind][0].unit:
                 raise ValueError(f"scale is {self.scale!r}; {self.kind} are no lengths")
             if not 0 < self.scale < np.inf:
                 raise ValueError(f"scale is {self.scale!r}; it must be above 0, in metres")
@@ -72,14 +73,10 @@ class GivenData:
 
     def conventions(self, stored: StoredData) -> Iterator[Kind]:
         """Yield the kind in each convention that may be the file's."""
-        spaces: Sequence[str] = [self.space] if self.space else vectors.SPACES
-        ranges: Sequence[str] = [self.range] if self.range else vectors.RANGES
-        if self.kind != "normals" or not stored.step.type:  # integers hold 0 to 1
-            ranges = ranges[-1:]
-        if self.kind not in ("normals", "positions"):
-            spaces = spaces[:1]
-        for space in spaces:
-            yield from (KINDS[self.kind](space, range_) for range_ in ranges)
+        range_ = self.range or ("" if stored.step.type else "unit")  # integers hold 0 to 1
+        for kind in KINDS[self.kind]:
+            if self.space in ("", kind.space) and {range_, kind.range} != {*vectors.RANGES}:
+                yield kind
 
     def picture(self, scene: Scene, making: Making) -> DataPicture:
         """Read it as the other side; of a whole view, the camera's region.
@@ -97,7 +94,7 @@ class GivenData:
             raise SceneError(
                 "a panorama has no view axis: its depths are distances: --holds distance"
             )
-        stored = read(self.path, KINDS[self.kind]("world", "unit"), self.layer, self.top_down)
+        stored = read(self.path, KINDS[self.kind][0], self.layer, self.top_down)
         at = traced(scene.camera, stored.values.shape[:2])
         stored = replace(stored, values=stored.values[at])
         renderer, known = making.renderer_of("")

@@ -40,8 +40,13 @@ class Kind:
     loose: Callable[[Seen], Floats] = lambda seen: np.zeros(len(seen.t))
     empty: tuple[float, ...] = (0.0,)  # what all channels have where nothing is
     space: str = ""  # of vectors: 'world' or 'camera'
-    encoded: bool = False  # -1 to 1 is stored as 0 to 1
+    range: str = ""  # of normals: 'signed', -1 to 1, or 'unit', stored as 0 to 1
     presumed: str = ""  # what is taken to be so, as nobody says it
+
+    @property
+    def encoded(self) -> bool:
+        """Whether -1 to 1 is stored as 0 to 1."""
+        return self.range == "unit"
 
     @property
     def variant(self) -> str:
@@ -63,7 +68,7 @@ class Data:
     camera: Camera
     step: Step
     full: float = 1.0  # the largest value that the file can hold; 1 of floats
-    turn: Turn | None = None
+    turn: Turn = lambda made, seen: made
     raw: Array | None = None  # of ids: the values or colours of the whole picture, (h, w, c)
 
     def at(self, where: Where) -> Data:
@@ -85,13 +90,11 @@ class Data:
     def turned(self, turn: Turn) -> Data:
         """Return the data, taken to be made with a fault beside those that it has."""
         before = self.turn
-        both = turn if before is None else lambda made, seen: turn(before(made, seen), seen)
-        return replace(self, turn=both)
+        return replace(self, turn=lambda made, seen: turn(before(made, seen), seen))
 
     def made(self, seen: Seen) -> Floats:
         """Return what the file should hold of what n pixels see, (n, c)."""
-        right = self.kind.made(seen)
-        return right if self.turn is None else self.turn(right, seen)
+        return self.turn(self.kind.made(seen), seen)
 
     def of_frame(self, frame: Frame) -> Floats:
         """Return what the file should hold of a frame, (h, w, c); NaN where nothing is seen."""

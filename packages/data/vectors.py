@@ -35,14 +35,14 @@ def _normal_error(seen: Seen) -> Floats:
     return out
 
 
-def normals(space: str, encoded: str) -> Kind:
+def normals(space: str, range_: str) -> Kind:
     """Return the kind of geometric unit normals in a space of SPACES, in a range of RANGES."""
 
     def made(seen: Seen) -> Floats:
         out = seen.normals
         if space == "camera":
             out = seen.in_camera(out, from_origin=False)
-        return out / 2 + 0.5 if encoded == "unit" else out
+        return out / 2 + 0.5 if range_ == "unit" else out
 
     return Kind(
         "normals",
@@ -54,7 +54,7 @@ def normals(space: str, encoded: str) -> Kind:
         loose=_normal_error,
         empty=(0.0, 0.5),  # neither, nor what it is stored as, is of unit length
         space=space,
-        encoded=encoded == "unit",
+        range=range_,
     )
 
 

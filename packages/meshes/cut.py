@@ -65,7 +65,7 @@ def cut(vertices: Floats, corners: Index, sizes: Index) -> Cut:
     off = ~np.isfinite(vertices).all(axis=1)
     infinite[np.repeat(np.arange(len(sizes)), sizes)[off[corners]]] = True
     triangles, faces = [np.zeros((0, 3), np.intp)], [np.zeros(0, np.intp)]
-    bends = _Bends()
+    bends: list[Floats] = [np.zeros((2, 0))]
     for size in np.unique(sizes[sizes > 2]).tolist():
         which = np.flatnonzero((sizes == size) & ~infinite)
         for some in np.split(which, range(_AT_ONCE, len(which), _AT_ONCE)):
@@ -76,9 +76,10 @@ def cut(vertices: Floats, corners: Index, sizes: Index) -> Cut:
     found = np.concatenate(faces)
     order = np.argsort(found, kind="stable")
     small, away = (np.flatnonzero(b) for b in ((sizes < 3) & ~infinite, infinite))
-    notes = [*_of(small, "with fewer than three corners: what has no surface meets no ray")]
+    few = _of(small, "with fewer than three corners: what has no surface meets no ray")
     missing = _of(away, "with a corner that is no finite number: left out")
-    return Cut(np.concatenate(triangles)[order], found[order], (*notes, *bends), tuple(missing))
+    notes = *few, *_of_bends(bends)
+    return Cut(np.concatenate(triangles)[order], found[order], notes, tuple(missing))
 
 
 def _of(faces: Index, what: str) -> Iterator[str]:
@@ -88,8 +89,12 @@ def _of(faces: Index, what: str) -> Iterator[str]:
         yield f"{count_of(len(faces), 'face')} {head}, the first is face {faces[0] + 1}:{tail}"
 
 
-def _parts(faces: Places, points: Floats, bends: _Bends) -> Iterator[tuple[Places, Array]]:
-    """Yield which of some faces (3, k, n), and their triangles (j, m, 3) as numbers of corners."""
+def _parts(faces: Places, points: Floats, bends: list[Floats]) -> Iterator[tuple[Places, Array]]:
+    """Yield which of some faces (3, k, n), and their triangles (j, m, 3) as numbers of corners.
+
+    How far those that are not flat are from it is appended to `bends`, (2, k): metres, and shares
+    of their sizes.
+    """
     every, count = np.arange(len(faces)), points.shape[2]
     if count == 3:
         yield every, np.arange(3)[None, None]
@@ -97,7 +102,7 @@ def _parts(faces: Places, points: Floats, bends: _Bends) -> Iterator[tuple[Place
     points = points.astype(np.float64)
     at = _local(points)
     normal = cross(at[..., 1:-1], at[..., 2:]).sum(axis=-1)  # Newell's
-    rounding = bends.add(points, at, normal)
+    rounding = _rounding(points, at, normal, bends)
     if count == 4:
         yield every, _quads(faces, at, normal, rounding)
         return
@@ -221,38 +226,28 @@ def _crosses(face: int) -> SceneError:
     )
 
 
-class _Bends:
-    """How far the corners of faces are from the planes of their faces, beyond rounding."""
+def _rounding(points: Floats, at: Floats, normal: Floats, bends: list[Floats]) -> Floats:
+    """Return how far faces (3, k, n) may be rounded, (k,) in sizes of each; note which are bent."""
+    largest = np.abs(points).max(axis=(0, 2))
+    unit = normal / np.sqrt(dot(normal, normal))
+    middle = at.mean(axis=2, keepdims=True)
+    away = np.abs(dot(at - middle, unit[..., None])).max(axis=1)
+    spans, own = np.ptp(at, axis=2), np.ptp(points, axis=2)
+    share = away / np.sqrt(dot(spans, spans))
+    size = np.sqrt(dot(own, own))
+    rounding = np.minimum(4 * (_DECIMALS + _DIGITS * largest) / size, _SEEN)
+    bends.append(np.stack((share * size, share))[:, share > rounding])
+    return np.nan_to_num(rounding, nan=_SEEN)
 
-    def __init__(self) -> None:
-        self.count = 0
-        self.metres = 0.0
-        self.share = 0.0
 
-    def add(self, points: Floats, at: Floats, normal: Floats) -> Floats:
-        """Measure faces (3, k, n); return how far they may be rounded, (k,) in sizes of each."""
-        largest = np.abs(points).max(axis=(0, 2))
-        unit = normal / np.sqrt(dot(normal, normal))
-        middle = at.mean(axis=2, keepdims=True)
-        away = np.abs(dot(at - middle, unit[..., None])).max(axis=1)
-        spans, own = np.ptp(at, axis=2), np.ptp(points, axis=2)
-        share = away / np.sqrt(dot(spans, spans))
-        size = np.sqrt(dot(own, own))
-        rounding = np.minimum(4 * (_DECIMALS + _DIGITS * largest) / size, _SEEN)
-        bent = share > rounding
-        if bent.any():
-            self.count += int(bent.sum())
-            self.metres = max(self.metres, np.max((share * size)[bent]))
-            self.share = max(self.share, np.max(share[bent]))
-        return np.nan_to_num(rounding, nan=_SEEN)
-
-    def __iter__(self) -> Iterator[str]:
-        """Yield what is to be said."""
-        if self.count:
-            many = "of more than three corners"
-            are = count_of(self.count, f"face {many} is", f"faces {many} are")
-            yield (
-                f"{are} not flat, by {self.metres:.2g} m or {100 * self.share:.2g} % of their size "
-                "at most: a program that cuts faces along other diagonals than Blender shows "
-                "another surface"
-            )
+def _of_bends(bends: list[Floats]) -> Iterator[str]:
+    """Say how far faces are not flat, if any are."""
+    metres, shares = np.concatenate(bends, axis=1)
+    if len(shares):
+        many = "of more than three corners"
+        are = count_of(len(shares), f"face {many} is", f"faces {many} are")
+        yield (
+            f"{are} not flat, by {metres.max():.2g} m or {100 * shares.max():.2g} % of their size "
+            "at most: a program that cuts faces along other diagonals than Blender shows another "
+            "surface"
+        )

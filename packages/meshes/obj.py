@@ -39,102 +39,82 @@ def read(path: Path) -> Contents:
     content = path.read_bytes().removeprefix(BOM_UTF8)
     if b"\0" in content:
         raise SceneError("it is no OBJ file: it holds bytes that no text has")
-    return _Reading(path.stem).read(content)
+    numbers: list[bytes] = []  # of the vertices, three each
+    corners: list[bytes] = []  # indices of vertices: from 1, or back from the face
+    sizes: list[int] = []  # of the faces
+    lines: dict[bytes, list[int]] = {key: [] for key in (b"v", b"f")}
+    named = {key: [(0, path.stem)] for key in (b"o", b"g")}  # lines, and the names there
+    weights, other = 0, Counter[bytes]()
+    for line, words in _statements(content):
+        key = words[0]
+        if key == b"v":
+            _check_vertex(line, words)
+            numbers += words[1:4]
+            weights += len(words) in (5, 8) and words[4] not in _ONE
+        elif key == b"f":
+            corners += [word.partition(b"/")[0] for word in words[1:]]
+            sizes.append(len(words) - 1)
+        elif key in named:
+            name = b" ".join(words[1:]).decode("utf-8", "replace") or path.stem
+            named[key].append((line, name))
+        elif key not in _NO_SHAPE:
+            other[key] += 1
+        if key in lines:
+            lines[key].append(line)
+    vertices, faces = lines.values()
+    points = in_lines(floats, numbers, [3] * len(vertices), vertices).reshape(-1, 3)
+    indices = _indices(in_lines(integers, corners, sizes, faces), sizes, faces, vertices)
+    objects, groups = named.values()
+    starts, names = zip(*(objects if len(objects) > 1 else groups), strict=True)
+    known = {name: number for number, name in enumerate(dict.fromkeys(names))}
+    counts = np.diff([*np.searchsorted(faces, starts), len(faces)])
+    owners = np.repeat([known[name] for name in names], counts)
+    notes = _notes(other, weights, [name for _, name in objects[1:]])
+    return of_faces(
+        points, indices, np.array(sizes, np.intp), known, owners, notes, _missing(other)
+    )
 
 
-class _Reading:
-    """The state after the lines of a file read so far."""
-
-    def __init__(self, stem: str) -> None:
-        self.numbers: list[bytes] = []  # of the vertices, three each
-        self.vertex_lines: list[int] = []
-        self.corners: list[bytes] = []  # indices of vertices: from 1, or back from the face
-        self.sizes: list[int] = []  # of the faces
-        self.above: list[int] = []  # vertices above each face
-        self.face_lines: list[int] = []
-        # Of objects and groups, how many faces were there before each, and its name.
-        self.begun = {key: [(0, stem)] for key in (b"o", b"g")}
-        self.stem = stem
-        self.weights = 0
-        self.other: Counter[bytes] = Counter()
-
-    def read(self, content: bytes) -> Contents:
-        """Read a whole file."""
-        for line, words in _statements(content):
-            key = words[0]
-            if key == b"v":
-                self._vertex(line, words)
-            elif key == b"f":
-                self._face(line, words[1:])
-            elif key in self.begun:
-                name = b" ".join(words[1:]).decode("utf-8", "replace") or self.stem
-                self.begun[key].append((len(self.sizes), name))
-            elif key not in _NO_SHAPE:
-                self.other[key] += 1
-        objects, groups = self.begun.values()
-        starts, named = zip(*(objects if len(objects) > 1 else groups), strict=True)
-        names = {name: number for number, name in enumerate(dict.fromkeys(named))}
-        faces = np.diff([*starts, len(self.sizes)])
-        threes = [3] * len(self.vertex_lines)
-        return of_faces(
-            in_lines(floats, self.numbers, threes, self.vertex_lines).reshape(-1, 3),
-            self._indices(),
-            np.array(self.sizes, np.intp),
-            names,
-            np.repeat([names[name] for name in named], faces),
-            self._notes(),
-            self._missing(),
+def _check_vertex(line: int, words: list[bytes]) -> None:
+    if len(words) < 4:
+        raise SceneError(
+            f"line {line}: a vertex has three coordinates; if this is the last line, it is cut "
+            f"off: {AGAIN}"
         )
 
-    def _vertex(self, line: int, words: list[bytes]) -> None:
-        if len(words) < 4:
-            raise SceneError(
-                f"line {line}: a vertex has three coordinates; if this is the last line, it is cut "
-                f"off: {AGAIN}"
-            )
-        self.numbers += words[1:4]
-        self.vertex_lines.append(line)
-        if len(words) in (5, 8) and words[4] not in _ONE:
-            self.weights += 1
 
-    def _face(self, line: int, words: list[bytes]) -> None:
-        self.corners += [word.partition(b"/")[0] for word in words]
-        self.sizes.append(len(words))
-        self.above.append(len(self.vertex_lines))
-        self.face_lines.append(line)
+def _indices(found: Index, sizes: list[int], faces: list[int], vertices: list[int]) -> Index:
+    """Return the corners' indices, from 0, given the lines of faces and vertices."""
+    above = np.repeat(np.searchsorted(vertices, faces), sizes)  # vertices above each face
+    found = np.where(found < 0, above + 1 + found, found)
+    if len(bad := np.flatnonzero((found < 1) | (found > len(vertices)))):
+        face = np.searchsorted(np.cumsum(sizes), bad[0], "right")
+        names = f"line {faces[face]} names vertex {found[bad[0]]}"
+        raise SceneError(f"{names}, but there are {len(vertices)}")
+    return found - 1
 
-    def _indices(self) -> Index:
-        """Return the corners' indices, from 0."""
-        found = in_lines(integers, self.corners, self.sizes, self.face_lines)
-        above, sizes = (np.array(own, np.intp) for own in (self.above, self.sizes))
-        found = np.where(found < 0, np.repeat(above, sizes) + 1 + found, found)
-        if len(bad := np.flatnonzero((found < 1) | (found > len(self.vertex_lines)))):
-            face = np.searchsorted(np.cumsum(sizes), bad[0], "right")
-            names = f"line {self.face_lines[face]} names vertex {found[bad[0]]}"
-            raise SceneError(f"{names}, but there are {len(self.vertex_lines)}")
-        return found - 1
 
-    def _notes(self) -> Iterator[str]:
-        for key, count in self.other.items():
-            if key in _CURVED:
-                continue
-            what = _NO_SURFACE.get(key)
-            named = f"'{shown(key)}' ({what})" if what else f"'{shown(key)}'"
-            said = count_of(count, f"line {named} is", f"lines {named} are")
-            why = "drawn: what has no surface meets no ray" if what else "understood, and left out"
-            yield f"{said} not {why}"
-        if self.weights:
-            said = count_of(self.weights, "vertex has a weight", "vertices have weights")
-            yield f"{said} other than 1, which polygons do not use"
-        times = Counter(name for _, name in self.begun[b"o"][1:])
-        if again := [f"'{name}'" for name, count in times.items() if count > 1]:
-            yield f"objects that have the same name are taken as one: {', '.join(again[:3])}"
+def _notes(other: Counter[bytes], weights: int, objects: list[str]) -> Iterator[str]:
+    for key, count in other.items():
+        if key in _CURVED:
+            continue
+        what = _NO_SURFACE.get(key)
+        named = f"'{shown(key)}' ({what})" if what else f"'{shown(key)}'"
+        said = count_of(count, f"line {named} is", f"lines {named} are")
+        why = "drawn: what has no surface meets no ray" if what else "understood, and left out"
+        yield f"{said} not {why}"
+    if weights:
+        said = count_of(weights, "vertex has a weight", "vertices have weights")
+        yield f"{said} other than 1, which polygons do not use"
+    if again := [f"'{name}'" for name, count in Counter(objects).items() if count > 1]:
+        yield f"objects that have the same name are taken as one: {', '.join(again[:3])}"
 
-    def _missing(self) -> Iterator[str]:
-        curved = {key.decode(): count for key, count in self.other.items() if key in _CURVED}
-        if curved:
-            said = f"{count_of(sum(curved.values()), 'line')} ({', '.join(curved)})"
-            yield f"curves and surfaces are not drawn: {said}; save them as polygons"
+
+def _missing(other: Counter[bytes]) -> Iterator[str]:
+    curved = {key.decode(): count for key, count in other.items() if key in _CURVED}
+    if curved:
+        said = f"{count_of(sum(curved.values()), 'line')} ({', '.join(curved)})"
+        yield f"curves and surfaces are not drawn: {said}; save them as polygons"
 
 
 def _statements(content: bytes) -> Iterator[tuple[int, list[bytes]]]:

@@ -91,7 +91,7 @@ def test_without_peers_ours_is_measured(monkeypatch, tmp_path):
 class NoWorkbench:
     """A Blender that can do all but draw."""
 
-    def __init__(self, cache):
+    def __init__(self):
         NoWorkbench.asked = self.asked = []
 
     def open(self, scene):
@@ -130,7 +130,7 @@ def test_a_peer_that_fails_is_left_out_from_then_on(monkeypatch, tmp_path):
 def test_blender_answers(tmp_path, monkeypatch):
     # A process is given our path, to which bpy, imported by another test, adds its own folders.
     monkeypatch.setattr(sys, "path", [p for p in sys.path if "scripts" not in Path(p).parts])
-    blender = BlenderPeer(tmp_path)
+    blender = BlenderPeer()
     try:
         blender.open(scenes.build(scenes.mesh_of("cube", tmp_path), WIDTH, HEIGHT, "orthographic"))
         timed = blender.bvhtree(1.0)
@@ -140,8 +140,8 @@ def test_blender_answers(tmp_path, monkeypatch):
         mesh = scenes.mesh_of("suzanne", tmp_path)
         assert len(mesh.triangles) == scenes.SUBJECTS["suzanne"].triangles
         assert np.abs(mesh.vertices).max() < 1.5
-        with pytest.raises(MissingPeerError, match="no benchmark scene 'none'"):
-            blender._ask("open_benchmark", "none", tmp_path, (1, 1), "perspective")
+        with pytest.raises(MissingPeerError, match="KeyError: 'none'"):
+            blender.render("none")
         [process] = active_children()
         process.kill()
         with pytest.raises(MissingPeerError, match="ended without an answer to 'cycles'"):

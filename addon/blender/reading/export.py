@@ -147,9 +147,9 @@ def _outside(camera: Camera, shown: list[Shown], meshes: dict[int, Read]) -> set
     }
     if not whole:
         return set()
-    bounds = np.array([mesh.bounds for mesh in whole.values()])
-    matrices = np.array([shown[n].matrix for n in whole])
-    out = outside(camera, bounds[:, 0], bounds[:, 1], matrices)
+    bounds = np.stack([mesh.bounds for mesh in whole.values()], axis=-1)
+    matrices = np.stack([shown[n].matrix for n in whole], axis=-1)
+    out = outside(camera, bounds, matrices)
     return {n for n, is_out in zip(whole, out, strict=True) if is_out}
 
 

@@ -1,13 +1,12 @@
 """Renders a scene of the kit with Mitsuba 3: python mitsuba_obj.py scene.obj camera.json out.png.
 
-The rays are those of Mitsuba's own sensors, through the pixels' centres; its own readers have the
-meshes, one for each material.
+The rays are those of Mitsuba's own sensors, through the pixels' centres; its own reader has the
+mesh, whose triangles are the fans of the file's faces, in their order.
 """
 
 import json
 import re
 import sys
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -18,23 +17,19 @@ from PIL import Image
 mi.set_variant("scalar_rgb")
 
 
-def by_material(obj: Path, folder: Path) -> dict[str, list[float]]:
-    """Write an .obj for each material; return their paths, with linear RGB."""
+def colors_of(obj: Path) -> list[list[float]]:
+    """Return linear RGB of each triangle."""
     materials = obj.with_suffix(".mtl").read_text(encoding="utf-8")
     of_name = r"newmtl (\S+)\nKd (\S+) (\S+) (\S+)"
     colors = {name: [*map(float, rgb)] for name, *rgb in re.findall(of_name, materials)}
-    vertices: list[str] = []
-    faces: dict[str, list[str]] = {name: [] for name in colors}
+    shown = []
     for line in obj.read_text(encoding="utf-8").splitlines():
-        if line.startswith("v "):
-            vertices.append(line)
-        elif line.startswith("usemtl "):
-            name = line.split()[1]
-        elif line.startswith("f "):
-            faces[name].append(line)
-    for name, own in faces.items():
-        (folder / f"{name}.obj").write_text("\n".join(vertices + own), encoding="utf-8")
-    return {str(folder / f"{name}.obj"): color for name, color in colors.items()}
+        key, *rest = line.split()
+        if key == "usemtl":
+            used = colors[rest[0]]
+        elif key == "f":
+            shown += [used] * (len(rest) - 2)
+    return shown
 
 
 def sensor(camera: dict[str, Any]) -> dict[str, Any]:
@@ -67,11 +62,9 @@ def main() -> None:
     obj, camera_file, out = map(Path, sys.argv[1:])
     camera = json.loads(camera_file.read_text(encoding="utf-8"))
     width, height = camera["width"], camera["height"]
-    with tempfile.TemporaryDirectory(dir=out.parent) as name:
-        colors = by_material(obj, Path(name))
-        shapes = {f"shape{k}": {"type": "obj", "filename": path} for k, path in enumerate(colors)}
-        scene = mi.load_dict({"type": "scene", "sensor": sensor(camera)} | shapes)
-    color_of = {f"shape{k}": color for k, color in enumerate(colors.values())}
+    colors = colors_of(obj)
+    mesh = {"type": "obj", "filename": str(obj)}
+    scene = mi.load_dict({"type": "scene", "sensor": sensor(camera), "mesh": mesh})
     linear = np.zeros((height, width, 3))
     seen = np.zeros((height, width, 1))
     for y in range(height):
@@ -80,7 +73,7 @@ def main() -> None:
             ray, _ = scene.sensors()[0].sample_ray(0.0, 0.5, at, mi.ScalarPoint2f(0.5, 0.5))
             hit = scene.ray_intersect(ray)
             if hit.is_valid():
-                linear[y, x], seen[y, x] = color_of[hit.shape.id()], 1
+                linear[y, x], seen[y, x] = colors[hit.prim_index], 1
     srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     rgba = np.concatenate((srgb, seen), axis=2)
     Image.fromarray(np.rint(255 * rgba).astype(np.uint8)).save(out)

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 from reference_tracer.arrays import Floats
-from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.tracer.hits import NOTHING
 
@@ -15,7 +14,7 @@ from ..depth import depth, distance
 from ..kind import Data, Turn
 from ..seen import Seen
 from .normalised import normalised
-from .turned import Turned, data_fault, once, picture_of
+from .turned import Turned, data_fault, once
 
 _UNITS = (
     (1000.0, "millimetres"),
@@ -87,16 +86,14 @@ def _background(evidence: Evidence, data: Data) -> Iterator[Turned]:
         return
     held = data.values[nothing & evidence.unexplained]
     value, count = np.unique(held, return_counts=True)
-    if len(value) and np.max(count) > (1 - _STRAY) * nothing.sum():
-        yield Turned((float(value[np.argmax(count)]),))
+    if not len(value) or np.max(count) <= (1 - _STRAY) * nothing.sum():
+        return
+    most = float(value[np.argmax(count)])
 
+    def taken(data: Data) -> Data:
+        return replace(data, blank=data.blank | (data.values == most).all(axis=-1))
 
-def _taken_for_nothing(case: Case, guess: Turned) -> Case:
-    """Return the case in which a value says that nothing is there."""
-    picture = picture_of(case)
-    (value,) = guess.values
-    blank = picture.data.blank | (picture.data.values == value).all(axis=-1)
-    return replace(case, picture=replace(picture, data=replace(picture.data, blank=blank)))
+    yield Turned((most,), change=taken)
 
 
 def _inverse(made: Floats, seen: Seen) -> Floats:
@@ -164,19 +161,16 @@ DEPTH_FAULTS = (
         ("zero", "one"),
         witness="zju3dv/pvnet-rendering#5",
     ),
-    replace(
-        data_fault(
-            "background_value",
-            ("depth", "distance"),
-            "where nothing is seen the values are {value:.6g}",
-            "An emptied depth buffer has the value of the far plane, which may be another than the "
-            "scene's.",
-            "save 0, an infinity or NaN where nothing is seen, or clip both at one depth",
-            _background,
-            ("value",),
-            witness="ros-perception/vision_opencv#248",
-        ),
-        assume=_taken_for_nothing,
+    data_fault(
+        "background_value",
+        ("depth", "distance"),
+        "where nothing is seen the values are {value:.6g}",
+        "An emptied depth buffer has the value of the far plane, which may be another than the "
+        "scene's.",
+        "save 0, an infinity or NaN where nothing is seen, or clip both at one depth",
+        _background,
+        ("value",),
+        witness="ros-perception/vision_opencv#248",
     ),
     data_fault(
         "inverse_depth",

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from reference_tracer.arrays import Floats
-from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
-from reference_tracer.diagnosis.faults.fault import Fault, Guess
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.progress import at_once
 from reference_tracer.wording import listed
 
 from ..ids import ids_of
 from ..kind import Data, Turn
 from ..seen import Seen
-from .turned import Turned, data_fault, data_of, picture_of
+from .turned import Turned, data_fault
 
 _MOST = 0.5  # of an object's unexplained pixels that have one id, at least
 _NAMED = 3  # objects that are named
@@ -75,23 +72,9 @@ def _exchanged(evidence: Evidence, data: Data) -> Iterator[Turned]:
         yield Turned(words=words, turn=_turned(own))
 
 
-@dataclass(frozen=True, eq=False)
-class Mended(Guess):
-    """Data without what is wrong with them."""
-
-    data: Data
-
-
-def _mended(case: Case, guess: Mended) -> Case:
-    return replace(case, picture=replace(picture_of(case), data=guess.data))
-
-
-@at_once
-def _mixed(evidence: Evidence) -> list[Mended]:
+def _mixed(evidence: Evidence, data: Data) -> Iterator[Turned]:
     """Guess which pixels hold a mean of ids around them: none of these, but between some."""
-    data = data_of(evidence)
-    if data.raw is None:
-        return []
+    assert data.raw is not None
     made = data.of_frame(evidence.frame)
     raw = np.full(data.raw.shape, np.nan)  # as it should be
     nothing = evidence.frame.object_index == NOTHING
@@ -109,11 +92,12 @@ def _mixed(evidence: Evidence) -> list[Mended]:
     low, high = (of.reduce(around, (2, 3), keepdims=True) for of in (np.fmin, np.fmax))
     between = ((low <= held) & (held <= high)).all(axis=(1, 2, 3)) & ~own
     if between.sum() < _LEAST:
-        return []
+        return
     mixed = np.zeros_like(nothing)
     mixed[rows[between], columns[between]] = True
     values = np.where((mixed & ~nothing)[..., None], made, data.values)
-    return [Mended(replace(data, values=values, blank=data.blank | (mixed & nothing)))]
+    mended = replace(data, values=values, blank=data.blank | (mixed & nothing))
+    yield Turned(change=lambda _: mended)
 
 
 ID_FAULTS = (
@@ -138,12 +122,12 @@ ID_FAULTS = (
         words="which objects",
         witness="facebookresearch/House3D#6",
     ),
-    Fault(
+    data_fault(
         "id_mixed",
+        ("ids",),
         "ids are mixed at edges, as colours are: their means are nobody's ids",
         "The picture of ids is rendered with anti-aliasing, or is scaled smoothly.",
         "render ids with one sample in each pixel's centre, and scale them by the nearest pixel",
-        _mended,
         _mixed,
         witness="princeton-vl/infinigen#383",
     ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from reference_tracer.arrays import Bools, Integers
@@ -26,28 +27,14 @@ _STEPS = (
 NUMBERS = "depth", "distance", "normals", "positions"
 
 
-@dataclass(frozen=True, eq=False)
-class Coarser(Guess):
-    """Values that were rounded to a step before they were stored."""
-
-    step: Step
-
-
-def _rounded(case: Case, guess: Coarser) -> Case:
-    picture = picture_of(case)
-    return replace(case, picture=replace(picture, data=replace(picture.data, step=guess.step)))
-
-
-@at_once
-def _steps(evidence: Evidence) -> list[Coarser]:
+def _steps(evidence: Evidence, data: Data) -> Iterator[Turned]:
     """Guess the steps on which all values lie, as they would if they had been rounded to them."""
-    data = data_of(evidence)
-    if data.kind.name not in NUMBERS:
-        return []
     own = data.values[~data.blank]
     # Floats were rounded as the file has them, before their unit was applied.
-    steps = [(replace(s, unit=data.step.unit) if s.type else s, words) for s, words in _STEPS]
-    return [Coarser(step, words=words) for step, words in steps if step.holds(own)]
+    for known, words in _STEPS:
+        step = replace(known, unit=data.step.unit) if known.type else known
+        if step.holds(own):
+            yield Turned(words=words, change=partial(replace, step=step))
 
 
 def _cut_off(evidence: Evidence, data: Data) -> Iterator[Turned]:
@@ -102,17 +89,19 @@ STORING_FAULTS = (
         words="topmost or lowest",
         witness="cocodataset/cocoapi#184",
     ),
-    Fault(
-        "data_rounded",
-        "the values were rounded before they were stored: to {words}",
-        "A renderer's buffer, or a conversion on the way, has fewer digits than the file.",
-        "keep float32 from the renderer to the file",
-        _rounded,
-        _steps,
+    replace(
+        data_fault(
+            "data_rounded",
+            NUMBERS,
+            "the values were rounded before they were stored: to {words}",
+            "A renderer's buffer, or a conversion on the way, has fewer digits than the file.",
+            "keep float32 from the renderer to the file",
+            _steps,
+            words="half floats, millimetres or centimetres",
+            witness="nerfstudio-project/nerfstudio#2317",
+        ),
         vague=True,
         sampled=False,
-        words="half floats, millimetres or centimetres",
-        witness="nerfstudio-project/nerfstudio#2317",
     ),
     data_fault(
         "data_cut_off",

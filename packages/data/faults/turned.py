@@ -1,4 +1,4 @@
-"""How a fault of data is made: the right values are turned into those that the file holds."""
+"""How a fault of data is made: by other right values, or by data that are taken otherwise."""
 
 from __future__ import annotations
 
@@ -18,15 +18,17 @@ Guesses = Callable[[Evidence, Data], Iterable["Turned"]]
 
 @dataclass(frozen=True, eq=False)
 class Turned(Numbers):
-    """Right values as a fault changes them."""
+    """Right values, or the data themselves, as a fault changes them."""
 
     turn: Turn = lambda made, seen: made
+    change: Callable[[Data], Data] = lambda data: data
 
 
 def turned(case: Case, guess: Turned) -> Case:
     """Return the case whose file is taken to hold what the fault makes."""
     picture = picture_of(case)
-    return replace(case, picture=replace(picture, data=picture.data.turned(guess.turn)))
+    data = guess.change(picture.data).turned(guess.turn)
+    return replace(case, picture=replace(picture, data=data))
 
 
 def picture_of(case: Case) -> DataPicture:
