@@ -73,7 +73,7 @@ def look(context: Any, meshes: Collection[Any], frames: Sequence[int]) -> Work[C
     if not frames:
         yield from _look(scene, layer, own, found)
     with values_restored():
-        for number, frame in enumerate(stepped(scene, [*frames])):
+        for number, frame in enumerate(stepped(scene, frames)):
             work = _look(scene, layer, own, found)
             yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
     if not found.objects:
