@@ -1,9 +1,8 @@
 """Finds what the camera sees of the open file: objects, and the faces of some meshes.
 
 Faces are decided as a render has them. An attribute says which face of the user's mesh each comes
-from: it goes through the modifiers on a copy of the object. Of n faces, each has a code below 2^31
-whose first part is its number and whose rest is random: what a modifier mixes of several faces is
-taken for one of them with a chance of n / 2^31.
+from: it goes through the modifiers on a copy of the object. Each of n faces has a random code below
+2^31: what a modifier mixes of several is taken for one of them with a chance of n / 2^31.
 """
 
 from __future__ import annotations
@@ -74,7 +73,7 @@ def look(context: Any, meshes: Collection[Any], frames: Sequence[int]) -> Work[C
     if not frames:
         yield from _look(scene, layer, own, found)
     with values_restored():
-        for number, frame in enumerate(stepped(scene, [*frames])):
+        for number, frame in enumerate(stepped(scene, frames)):
             work = _look(scene, layer, own, found)
             yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
     if not found.objects:
@@ -156,7 +155,6 @@ def _codes(tmp: Any, own: Mapping[str, Any]) -> dict[tuple[str, bytes], Integers
 
 
 def _codes_of(count: int) -> Integers:
-    """Return the codes of so many faces, (n,) int32, the least first; 0 is none."""
-    part = _CODES // (count + 1)
-    codes = (1 + np.arange(count)) * part + np.random.default_rng(0).integers(0, part, count)
-    return codes.astype(np.int32)
+    """Return different codes of so many faces, (n,) int32, in order; 0 is none."""
+    codes = np.random.default_rng(0).choice(_CODES - 1, count, replace=False)
+    return (1 + np.sort(codes)).astype(np.int32)
