@@ -70,12 +70,13 @@ def look(context: Any, meshes: Collection[Any], frames: Sequence[int]) -> Work[C
         obj.update_from_editmode()
         unsure = MAY_BE * obj.reference_tracer.infinite_plane  # which has no faces
         found.faces[obj.data] = np.full(len(obj.data.polygons), unsure, np.uint8)
-    if not frames:
+    if frames:
+        with values_restored():
+            for number, frame in enumerate(stepped(scene, frames)):
+                work = _look(scene, layer, own, found)
+                yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
+    else:
         yield from _look(scene, layer, own, found)
-    with values_restored():
-        for number, frame in enumerate(stepped(scene, frames)):
-            work = _look(scene, layer, own, found)
-            yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
     if not found.objects:
         raise SceneError(f"Scene '{scene.name}' shows no faces")
     return found
