@@ -21,7 +21,7 @@ from ...visible import steps
 from ..evaluating import evaluated, export_for_render
 from ..reading.camera import export_camera
 from ..reading.export import export
-from ..temporary import HIDDEN_FACES, everything, made_for, temporary_scene
+from ..temporary import HIDDEN_FACES, everything, leave_out, made_for, temporary_scene
 from ..turns import once
 from ..values import values_restored
 from .stepping import stepped
@@ -127,9 +127,7 @@ def _codes(tmp: Any, own: Mapping[str, Any]) -> dict[tuple[str, bytes], Integers
     They are found by the object's name and the mesh's triangles: shape keys and simulations move
     points. The temporary scene has copies of the objects then, and nothing else.
     """
-    for items in (tmp.collection.children, tmp.collection.objects):
-        for item in items[:]:
-            items.unlink(item)
+    leave_out(tmp, {*tmp.objects})
     coded = {obj.data: made_for(tmp, obj.data.copy()) for obj in own.values()}
     for mesh in coded.values():
         attribute = mesh.attributes.new(_CODE, "INT", "FACE")
