@@ -75,7 +75,7 @@ class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
             store(mesh, NAME, STATES[ranks])
         if context.mode == "OBJECT":
             said = rpt_("{} objects seen, {} hidden, {} undecided")
-            every = [*result.objects.values()]
+            every = np.array([*result.objects.values()])
             for obj in context.view_layer.objects:
                 obj.select_set(result.objects.get(obj.name_full) == wanted)
         else:
