@@ -24,7 +24,7 @@ from .certified.samples import traced_together
 from .certified.sweep.sweep import sweep
 from .methods import UNPROVEN, Method
 from .opened import only
-from .scene import Scene, SceneError
+from .scene import Scene, SceneError, finite
 from .tracer import nearest
 from .tracer import render as loop
 from .tracer.camera import Rays, camera_rays, film_positions
@@ -175,8 +175,8 @@ def trace(
     Raises
     ------
     SceneError
-        If a ray is not finite: nothing is proven of it. If `every` is asked for by a method that is
-        not certified.
+        If a ray is not finite, as nothing is proven of it, or has no three coordinates. If `every`
+        is asked for by a method that is not certified.
     """
     if every and settings and not settings.method.is_proven:
         raise SceneError(f"all hits are certified, and not traced by {settings.method}")
@@ -184,13 +184,13 @@ def trace(
     settings = resolved(settings or Settings(), statistics)
     if rays or every:
         rays = rays or camera_rays(scene.camera, *film_positions(scene.camera.region))
-        if not (np.isfinite(rays.origins).all() and np.isfinite(rays.directions).all()):
-            raise SceneError("a ray's origin or direction is not finite")
+        both = np.broadcast_arrays(rays.origins, rays.directions)
+        finite(both, (2, 3, rays.count), "The origins and directions of rays")
+        o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
+        rays = replace(rays, origins=o, directions=d)
         if every:
             clip = scene.camera.clip_start, scene.camera.clip_end
             return result_of(only("rays", "all hits of rays").all_hits(scene, rays, clip))
-        o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
-        rays = replace(rays, origins=o, directions=d)
         return result_of(RAY_TRACERS[settings.method](scene, rays, settings, statistics))
     return result_of(hits(scene, settings, statistics))
 

@@ -131,12 +131,6 @@ Check FitParallel.well_apart_holds.
 Check SweepProven.recorded_perspective_nearness.
 (** The sweep, as recorded: likewise -t; orthographic. *)
 Check SweepProven.recorded_parallel_nearness.
-(** The sweep, as recorded: of small triangles, what is called sure is inside. *)
-Check SweepProven.recorded_small_inside.
-(** The sweep, as recorded: of small triangles, what is dropped is outside. *)
-Check SweepProven.recorded_small_outside.
-(** The sweep, as recorded: of small triangles, the nearness encloses the exact one. *)
-Check SweepProven.recorded_small_nearness.
 (** The sweep, as recorded: the clip range, perspective. *)
 Check SweepProven.recorded_clip_perspective.
 (** The sweep, as recorded: the clip range, orthographic. *)

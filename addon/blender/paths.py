@@ -6,8 +6,6 @@ from pathlib import Path
 
 import bpy
 
-from ..report import folders
-
 
 def open_path() -> Path:
     """Return the path of the open file, a backup's as a .blend; `none.blend` where none is open."""
@@ -17,16 +15,3 @@ def open_path() -> Path:
 def absolute(path: str) -> Path:
     """Return a path as Blender writes it, or as the shell does."""
     return Path(bpy.path.abspath(path))
-
-
-def made_folder(directory: str) -> Path:
-    """Make a folder, and return it.
-
-    Raises
-    ------
-    OSError
-        If it cannot be made or written.
-    """
-    folder = absolute(directory)
-    folders.make(folder)
-    return folder

@@ -34,7 +34,6 @@ MODULES = (
     study_panels,
     split,
     swatches,
-    rendered,
 )
 # The panels import the operators.
 _register, _unregister = bpy.utils.register_classes_factory(OPERATORS)
@@ -54,6 +53,7 @@ def _file_closes(*_: Any) -> None:
 _HANDLERS = {
     "load_pre": _file_closes,
     "load_post": forget,
+    "render_init": rendered.begins,
     "undo_pre": remember_editors,
     "undo_post": put_back,
     "redo_pre": remember_editors,
@@ -87,6 +87,7 @@ def unregister() -> None:
         window = context.window or context.window_manager.windows[0]
         with context.temp_override(window=window):  # a script may have none
             LongWork.stop(context)
+    rendered.forget()
     forget()
     _unregister()
     for module in reversed(MODULES):

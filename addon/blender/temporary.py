@@ -156,7 +156,7 @@ def _isolate(scene: Scene, layer: str) -> None:
         scene.view_layers.remove(other)
     [only] = scene.view_layers
     only.use = True
-    _leave_out_drawings(only.layer_collection)
+    leave_out(scene, [o for o in scene.objects if o.get(DRAWN)])
 
 
 @contextmanager
@@ -187,15 +187,6 @@ def _spare_bodies(scene: Scene, frame: int) -> None:
         cache = bodies.point_cache
         if not cache.is_baked or frame == cache.frame_start + 1:
             bodies.enabled = False  # set only then: Blender takes any setting for a change
-
-
-def _leave_out_drawings(parent: Any) -> None:
-    """Exclude what the add-on has drawn in the scene, wherever the user has put it."""
-    for child in parent.children:
-        if child.collection.get(DRAWN):
-            child.exclude = True
-        else:
-            _leave_out_drawings(child)
 
 
 def leave_out(tmp: Any, objects: Collection[Any]) -> None:

@@ -93,10 +93,10 @@ class Tree:
 
     @classmethod
     def of(cls, boxes: Floats, items: Index) -> Tree:
-        """Build a tree of items from their boxes, (6, m), neighbours together.
-
-        `items` (m,) has their numbers; one that is -1 is never met.
-        """
+        """Build a tree of items from their boxes, (6, m); `items` (m,) has their numbers."""
+        order = neighbours(boxes)
+        boxes = boxes.take(order, axis=1)
+        items = np.where(order < 0, -1, items.take(order))  # -1 is never met
         levels: list[Tree] = []
         while boxes.size and (boxes.shape[1] > 1 or not levels):
             missing = -boxes.shape[1] % WIDE

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Floats, Places
+from ..arrays import Places
 from ..methods import Method
 from ..scene import Camera, Region, Scene
 from ..tracer.candidates import candidates, pixel_bounds
@@ -22,8 +22,7 @@ from ..tracer.progress import result_of
 from ..tracer.settings import UNPROVEN_SETTINGS, Settings
 from ..tracer.ties import Name
 from ..tracer.triangle import textbook
-from ..tracer.vector import transform_points
-from ..tracer.world import WorldTriangles, refused
+from ..tracer.world import WorldTriangles, box_corners, refused
 from .pixel import Candidate, Pixel, answer, check_pixel
 
 LIMIT = 8  # candidates that one still reads
@@ -89,7 +88,7 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
 def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
     """Return the triangles with a box on the film that holds the tile's one pixel, each once."""
     found: dict[Name, NDArray[np.float64]] = {}
-    boxes = _boxes(scene)
+    boxes = box_corners(scene.instance_bounds, scene.instance_matrices)
     for camera in _both_ways(replace(scene.camera, region=tile)):
         # First the instances with a bounding box that the ray may meet.
         x0, x1, y0, y1 = pixel_bounds(camera, boxes, reach=0.5)
@@ -102,14 +101,6 @@ def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
     corners = np.array(list(found.values())).reshape(-1, 3, 3)
     named = np.array(list(found), np.int32).reshape(-1, 2)
     return WorldTriangles(corners.transpose(1, 2, 0), *named.T)
-
-
-def _boxes(scene: Scene) -> Floats:
-    """Return the corners of all instances' bounding boxes, (8, 3, instances), world space."""
-    local = np.array([np.meshgrid(*mesh.bounds.T) for mesh in scene.meshes]).reshape(-1, 3, 8)
-    corners = local[scene.instance_meshes].transpose(2, 1, 0)
-    with np.errstate(over="ignore", invalid="ignore"):  # what overflows may be anywhere
-        return np.stack([transform_points(scene.instance_matrices, p) for p in corners])
 
 
 def _both_ways(camera: Camera) -> list[Camera]:

@@ -77,6 +77,7 @@ class Derivation:
     nearest: Mapping[Arithmetic, int | None]
     answers: tuple[Answer, ...]
     certified: Answer
+    seen_test: Test | None  # the ray against what is certainly seen
     shading: tuple[Quantity, ...]  # the colour's steps; none where it is constant
     color: tuple[float, ...]  # of what is certainly seen, linear RGBA
 
@@ -84,11 +85,6 @@ class Derivation:
     def seen(self) -> Candidate | None:
         """The candidate that is certainly seen; None for the background."""
         return self.seen_test.candidate if self.seen_test else None
-
-    @property
-    def seen_test(self) -> Test | None:
-        """The ray against what is certainly seen."""
-        return next((t for t in self.tests if t.candidate.name == self.certified.seen), None)
 
     def title_of(self, name: Name) -> str:
         """Return the words for the candidate of a name, or for NOWHERE."""
@@ -121,6 +117,7 @@ def derive_pixel(pixel: Pixel) -> Derivation:
         {kind: _nearest(tests, kind) for kind in Arithmetic},
         tuple(plain_answers(pixel)),
         certified,
+        seen,
         shading,
         color,
     )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Floats
-from ..tracer.camera import pixel_size
+from ..tracer.camera import camera_rays
 from .derivation import Derivation, Test
 from .pixel import Pixel
 from .textbook import Arithmetic
@@ -93,14 +93,14 @@ def _film(pixel: Pixel) -> list[Shape]:
     camera = pixel.camera
     if not camera.projection.is_linear:
         return []
-    depth = 0.0 if camera.projection.shares_direction else 1.0
-    middle = camera.origin + depth * camera.forward
-    axes = np.stack((camera.right, camera.up))
-    w, size = camera.window, np.array(pixel_size(camera))
-    start = np.array((w.left, w.bottom))
-    corner = start + (pixel.column, pixel.row) * size
-    film = _rectangle(middle, axes, start, (w.right, w.top))
-    own = _rectangle(middle, axes, corner, corner + size)
+    depth = np.array(0.0 if camera.projection.shares_direction else 1.0)
+
+    def frame(x: int, y: int, width: int, height: int) -> Floats:
+        corners = np.add((x, y), [(0, 0), (width, 0), (width, height), (0, height)])
+        return camera_rays(camera, *corners.T).at(depth).T
+
+    film = frame(0, 0, camera.width, camera.height)
+    own = frame(pixel.column, pixel.row, 1, 1)
     return [Shape("Film", film, _FRAME, [], FILM), Shape("Pixel", own, _FRAME, [], FILM, True)]
 
 

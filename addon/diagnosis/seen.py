@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Places, parts
 from ..causes.checks.probe import SOUND
-from ..certified.tree import BoxRays, Crossed, Tree, neighbours
+from ..certified.tree import BoxRays, Crossed, Tree
 from ..scene import Mesh, Scene
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits
@@ -94,11 +94,9 @@ def _tree_of(low: Floats, high: Floats) -> Tree:
     finite = np.flatnonzero(np.isfinite(low).all(axis=0) & np.isfinite(high).all(axis=0))
     boxes = np.concatenate((low[:, finite], high[:, finite]))
     more = SLACK * np.max(np.abs(boxes), initial=0.0)
-    order = neighbours(boxes)
-    items = np.where(order < 0, -1, np.append(finite, -1)[order])
     boxes[:3] -= more
     boxes[3:] += more
-    return Tree.of(boxes.take(order, axis=1), items)
+    return Tree.of(boxes, finite)
 
 
 def _enter(

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 from xml.etree import ElementTree
 
 from ..comparison.comparison import Comparison
 from ..comparison.verdict import Verdict
-from ..wording import count_of
+from ..wording import count_of, printable
 from .lines import describe, ended
-
-_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-
-
-def legal(words: str) -> str:
-    """Return words with what XML cannot hold, as control characters, made visible."""
-    return _NO_XML.sub("\ufffd", words)
 
 
 class Judged(NamedTuple):
@@ -32,6 +24,8 @@ class Judged(NamedTuple):
 def junit(name: str, suites: Mapping[str, Sequence[Judged]]) -> str:
     """Return the XML: a suite for each name, with a case for each thing that was judged.
 
+    What XML cannot hold, as control characters, is spelt out.
+
     References
     ----------
     .. [1] The format has no specification; this is the part that Jenkins, GitLab and pytest share.
@@ -39,14 +33,14 @@ def junit(name: str, suites: Mapping[str, Sequence[Judged]]) -> str:
     root = ElementTree.Element("testsuites", name=name)
     for suite_name, judged in suites.items():
         failures = str(sum(bool(j.failure) for j in judged))
-        own = {"name": legal(suite_name), "tests": str(len(judged)), "failures": failures}
+        own = {"name": printable(suite_name), "tests": str(len(judged)), "failures": failures}
         suite = ElementTree.SubElement(root, "testsuite", own)
         for j in judged:
-            said = {"name": legal(j.name), "classname": legal(suite_name)}
+            said = {"name": printable(j.name), "classname": printable(suite_name)}
             case = ElementTree.SubElement(suite, "testcase", said, time=f"{j.seconds:.3f}")
             if j.failure:
-                failure = ElementTree.SubElement(case, "failure", message=legal(j.failure))
-                failure.text = legal(j.detail)
+                failure = ElementTree.SubElement(case, "failure", message=printable(j.failure))
+                failure.text = printable(j.detail)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True)
 

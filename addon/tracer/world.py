@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arrays import Array, Bools, Floats, Index, Integers
 from .camera import dual_axes, project
-from .vector import Arrays, Vectors, gather, transform_points
+from .vector import Arrays, Vectors, cross, gather, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Mesh, Scene
@@ -181,6 +182,19 @@ def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
     return out
 
 
+@np.errstate(over="ignore", invalid="ignore")
+def planes_of(scene: Scene, instance: Index, triangle: Index) -> tuple[Vectors, Vectors]:
+    """Return a point and the textbook's normal of each named surface's plane, (3, n) each."""
+    points, normals = np.zeros((2, 3, len(instance)))
+    on_mesh = np.flatnonzero(instance < len(scene.instances))
+    p1, p2, p3 = world_corners(scene, instance[on_mesh], triangle[on_mesh])
+    points[:, on_mesh], normals[:, on_mesh] = p1, cross(p3 - p1, p2 - p1)
+    for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
+        which = instance == index
+        points[:, which], normals[:, which] = infinite.point[:, None], infinite.normal[:, None]
+    return points, normals
+
+
 def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Index | slice]]:
     """Yield each mesh among instances (n,), which are no planes, with its rows of them."""
     of = scene.instance_meshes[instance]
@@ -189,6 +203,17 @@ def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Index | slice
         return
     for mesh in np.unique(of):
         yield scene.meshes[mesh], np.flatnonzero(of == mesh)
+
+
+def box_corners(bounds: Floats, world_from_object: Floats) -> Vectors:
+    """Return the corners of k boxes in world space, (8, 3, k).
+
+    `bounds` (2, 3, k) has the lowest and the highest corner of each, in its object's space;
+    `world_from_object` is (4, 4, k).
+    """
+    with np.errstate(over="ignore", invalid="ignore"):  # what overflows may be anywhere
+        ends = product((0, 1), repeat=3)
+        return np.stack([transform_points(world_from_object, bounds[k, range(3)]) for k in ends])
 
 
 def reaches(scene: Scene) -> Floats:

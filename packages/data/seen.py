@@ -10,9 +10,9 @@ from reference_tracer.arrays import Floats, Integers
 from reference_tracer.scene import Scene
 from reference_tracer.tracer import plane, shading
 from reference_tracer.tracer.camera import Rays, camera_rays, dual_axes
-from reference_tracer.tracer.hits import NOTHING, Hits
+from reference_tracer.tracer.hits import Hits
 from reference_tracer.tracer.vector import Vectors
-from reference_tracer.tracer.world import world_corners
+from reference_tracer.tracer.world import planes_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +68,7 @@ class Seen:
     @cached_property
     def _points(self) -> Vectors:
         """A point of each surface, (3, n) world space."""
-        out = np.zeros((3, len(self.instance)))
-        count = len(self.scene.instances)
-        for number, infinite in enumerate(self.scene.planes, start=count):
-            out[:, self.instance == number] = infinite.point[:, None]
-        of_mesh = np.flatnonzero((self.instance < count) & (self.instance != NOTHING))
-        corners = world_corners(self.scene, self.instance[of_mesh], self.triangle[of_mesh])
-        out[:, of_mesh] = corners[0]
-        return out
+        return planes_of(self.scene, self.instance, self.triangle)[0]
 
     def along(self, by: Floats) -> Seen:
         """Return what lies some t (n,) farther on the same rays."""

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.any_rays import nearest_hits
-from reference_tracer.certified.arithmetic import check_assumptions
 from reference_tracer.cli.camera_options import add_parts, choice_from
 from reference_tracer.cli.opening import SOURCES, open_file
 from reference_tracer.cli.parser import AGREE, Parser, number
 from reference_tracer.cli.running import progress_bar
-from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.hits import NOTHING, Hits, Statistics
@@ -27,41 +23,12 @@ from .every import Crossings, all_hits
 from .files import load_points, load_rays, save
 from .inside import Inside, places
 
-_T = number(float, lambda value: not np.isnan(value), "a number")
-
-
-@dataclass(frozen=True)
-class RaysOptions:
-    """The options of `reftrace rays`."""
-
-    scene: Path
-    rays: Path
-    out: Path
-    choice: Choice
-    start: float
-    end: float
-    what: str  # is found: first, every, parity; or the first, by "every-pair"
-
-    @classmethod
-    def parsed(cls, given: Namespace) -> RaysOptions:
-        """Return what was parsed; raises SceneError if options contradict one another."""
-        if not given.start < given.end:
-            raise SceneError(f"--start {given.start:g} is not below --end {given.end:g}")
-        if given.what == "parity" and (given.start, given.end) != (0, np.inf):
-            raise SceneError("--parity takes whole rays: leave out --start and --end")
-        if folders.place_of(given.out) in map(folders.place_of, (given.scene, given.rays)):
-            raise SceneError(f"--out '{given.out}' is a file that is read: choose another")
-        choice = choice_from(given, given.scene)
-        clip = given.start, given.end
-        return cls(given.scene, given.rays, given.out, choice, *clip, given.what)
+_T = number(float, lambda _: True, "a number")
 
 
 def add(parser: Parser) -> None:
     """Add the command's options."""
-    parser.runs(
-        lambda given: rays(RaysOptions.parsed(given)),
-        "reftrace rays scene.glb rays.npz --out hits.npz",
-    )
+    parser.runs(rays, "reftrace rays scene.glb rays.npz --out hits.npz")
     parser.add_scene(SOURCES)
     parser.add_argument(
         "rays",
@@ -75,54 +42,53 @@ def add(parser: Parser) -> None:
         required=True,
         type=parser.path_ending(".npz"),
         metavar="HITS.npz",
-        help="the file to write: t, object, instance, triangle, barycentrics and ties of each ray",
+        help="the file to write: t, object, instance, triangle, barycentrics and ties of each ray; "
+        "also start, enters and same_t with --every; place and winding with --parity",
     )
-    for name, own, what in (("start", 0.0, "least"), ("end", np.inf, "largest")):
-        parser.add_argument(
-            f"--{name}",
-            type=_T,
-            default=own,
-            metavar="T",
-            help=f"the {what} t that counts, in lengths of the direction (default %(default)g)",
-        )
+    for name, t, what in (("start", 0.0, "least"), ("end", np.inf, "largest")):
+        words = f"the {what} t that counts, in lengths of the direction (default %(default)g)"
+        parser.add_argument(f"--{name}", type=_T, default=t, metavar="T", help=words)
     ways = parser.add_mutually_exclusive_group()
-    for name, what in (
+    for name, words in (
         ("every", "write all that each ray meets, each surface once, in order of t"),
         ("parity", "write which points lie inside closed meshes, and their winding numbers"),
         ("every-pair", "test each ray with each triangle, without a tree of boxes: far slower"),
     ):
-        ways.add_argument(
-            f"--{name}", dest="what", action="store_const", const=name, default="first", help=what
-        )
+        ways.add_argument(f"--{name}", action="store_true", help=words)
     add_parts(parser)
 
 
-def rays(options: RaysOptions) -> int:
-    """Trace, and write what the rays meet."""
-    check_assumptions()
-    of_points = options.what == "parity"
-    given = (load_points if of_points else load_rays)(options.rays)
-    clip = options.start, options.end
-    with folders.made_for_file(options.out):
-        opened = open_file(options.scene, options.choice, whole=True)
+def rays(given: Namespace) -> int:
+    """Trace, and write what the rays meet, or where points are."""
+    clip = given.start, given.end
+    if not given.start < given.end:
+        raise SceneError(f"--start {given.start:g} is not below --end {given.end:g}")
+    if given.parity and clip != (0, np.inf):
+        raise SceneError("--parity takes whole rays: leave out --start and --end")
+    if folders.place_of(given.out) in map(folders.place_of, (given.scene, given.rays)):
+        raise SceneError(f"--out '{given.out}' is a file that is read: choose another")
+    choice = choice_from(given, given.scene)
+    read = (load_points if given.parity else load_rays)(given.rays)
+    with folders.made_for_file(given.out):
+        opened = open_file(given.scene, choice, whole=True)
         scene = opened.scene
         show(*opened.manifest.lines())
         statistics = Statistics(refused=refused(scene))
         work: Work[Any]
-        if of_points:
-            work = places(scene, given)
-        elif options.what == "every":
-            work = all_hits(scene, given, clip)
+        if given.parity:
+            work = places(scene, read)
+        elif given.every:
+            work = all_hits(scene, read, clip)
         else:
             statistics.method = "certified"
-            work = nearest_hits(scene, given, clip, statistics, options.what == "first")
+            work = nearest_hits(scene, read, clip, statistics, not given.every_pair)
         with progress_bar() as progress:
             found: Any = result_of(scaled(work, 0.0, 1.0, "tracing"), progress)
-        with folders.replacing_file(options.out) as new:
-            save(new, scene, given.count, found)
-    counts = count_of(given.count, "point" if of_points else "ray")
+        with folders.replacing_file(given.out) as new:
+            save(new, scene, read.count, found)
+    counts = count_of(read.count, "point" if given.parity else "ray")
     counts += f", {count_of(scene.triangle_count, 'triangle')}: {_said(found)}"
-    show(f"{counts}: {options.out}", *statistics.required())
+    show(f"{counts}: {given.out}", *statistics.required())
     return AGREE
 
 

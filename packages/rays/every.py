@@ -7,6 +7,7 @@ rounding keeps the order, so that integers are asked only where two rounded t ar
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cmp_to_key
 from typing import Any
@@ -14,13 +15,14 @@ from typing import Any
 import numpy as np
 from reference_tracer.arrays import Bools, Bytes, Floats, Index, Places, parts, run_starts
 from reference_tracer.certainty import Certainty
+from reference_tracer.certified import many
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.arithmetic import sound_steps
+from reference_tracer.certified.decisions import Decisions
 from reference_tracer.certified.exact import gap, sign_of_difference
 from reference_tracer.certified.integers import cross, dot, integers
 from reference_tracer.certified.ladder import Ladder
-from reference_tracer.certified.measures import Prepared
-from reference_tracer.certified.surfaces import Surfaces, surfaces_of
+from reference_tracer.certified.surfaces import Surfaces
 from reference_tracer.certified.triangle_tree import TriangleTree
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.camera import Rays
@@ -78,56 +80,56 @@ def all_hits(
     `tree` is the scene's, if it is there.
     """
     tree = tree or TriangleTree.of(scene)
-    found = []
-    for some in parts(rays.count, RAYS) or [slice(0, 0)]:
-        yield Progress(some.start / max(rays.count, 1))
-        part = _crossings(scene, rays.take(np.arange(rays.count)[some]), clip, tree)
-        found.append(replace(part, ray=part.ray + some.start))
-    every = Crossings.joined(found)
-    axes = (integers(instance.world_from_object[:3, :3])[0] for instance in scene.instances)
-    mirrored = [k for k, (x, y, z) in enumerate(axes) if dot(x, cross(y, z)) < 0]
-    return replace(every, enters=every.enters != np.isin(every.instance, mirrored))
-
-
-def _crossings(scene: Scene, rays: Rays, clip: Clip, tree: TriangleTree) -> Crossings:
-    """Return all hits of some rays; `enters` as if no instance were mirrored."""
-    none = np.zeros(0, np.int32)
-    found: list[Any] = [(none, none, none, none > 0, none)]
-    for number, plane in enumerate(scene.planes, len(scene.instances)):
-        ladder = Ladder(rays, Surfaces([(plane.point, plane.normal)], number), clip)
-        hits = result_of(ladder.hits(Statistics()))
-        met = np.flatnonzero(hits.instance == number)
-        names = hits.instance[met], hits.triangle[met]
-        found.append((met, *names, met < 0, hits.certainty[met]))
-    for pairs in tree.pairs(rays, *clip):
-        how = decide(rays.take(pairs.pixel), pairs.corners, *clip)
-        met = np.flatnonzero(how.crossed)
-        some = pairs.take(met)
-        certainty = (Certainty.BOUND + how.exact + how.edge)[met]  # an edge is decided in integers
-        found.append((some.pixel, some.instance, some.triangle, ~how.along[met], certainty))
-    ray, instance, triangle, enters, certainty = map(np.concatenate, zip(*found, strict=True))
-    of_hits = rays.take(ray)
-    surfaces, surface = surfaces_of(scene, instance, triangle)
+    surfaces = replace(Surfaces.planes_of(scene), triangles=tree.triangles)
+    found = [np.zeros((4, 0), int)]
+    for some in parts(rays.count, RAYS):
+        yield Progress(some.start / rays.count)
+        found += _crossed(rays, np.arange(some.start, some.stop), surfaces, tree, clip)
+    ray, surface, enters, certainty = np.concatenate(found, axis=1)
     hits = Hits.none(len(ray))
     if len(ray):
-        prepared = Prepared(of_hits, surfaces)
-        for _ in prepared.enter(hits, np.arange(len(ray)), surface, of_hits.take):
-            pass
-    out = Crossings(
-        ray, hits.t, instance, triangle, hits.s, enters, enters & False, certainty.astype(np.uint8)
+        of_hits = rays.take(ray)
+        decisions = Decisions(hits, of_hits, surfaces, clip, of_hits)
+        yield from decisions.by_bound(np.arange(len(ray)), surface)
+    axes = (integers(instance.world_from_object[:3, :3])[0] for instance in scene.instances)
+    mirrored = [k for k, (x, y, z) in enumerate(axes) if dot(x, cross(y, z)) < 0]
+    every = Crossings(
+        ray,
+        hits.t,
+        hits.instance,
+        hits.triangle,
+        hits.s,
+        enters != np.isin(hits.instance, mirrored),
+        np.zeros(len(ray), bool),
+        certainty.astype(np.uint8),
     )
-    order = np.lexsort((triangle, instance, out.t, ray))
-    return _in_order(rays, out.take(order), surfaces, surface[order])
+    order = np.lexsort((hits.triangle, hits.instance, hits.t, ray))
+    return _in_order(every.take(order), rays, surfaces, surface[order])
 
 
-def _in_order(rays: Rays, hits: Crossings, surfaces: Surfaces, surface: Index) -> Crossings:
+def _crossed(
+    rays: Rays, some: Index, surfaces: Surfaces, tree: TriangleTree, clip: Clip
+) -> Iterator[Index]:
+    """Yield what some rays cross, (4, k): ray, surface, if it is met from outside, certainty."""
+    own = rays.take(some)
+    for number, plane in enumerate(surfaces.planes):
+        hits = result_of(Ladder(own, Surfaces([plane]), clip).hits(Statistics()))
+        met = np.flatnonzero(hits.instance == 0)
+        yield np.stack(np.broadcast_arrays(some[met], number, 0, hits.certainty[met]))
+    for pairs in tree.pairs(own, *clip):
+        how = decide(own.take(pairs.pixel), pairs.corners, *clip)
+        certainty = Certainty.BOUND + how.exact + how.edge  # an edge is decided in integers
+        surface = len(surfaces.planes) + pairs.row
+        yield np.stack((some[pairs.pixel], surface, ~how.along, certainty))[:, how.crossed]
+
+
+def _in_order(hits: Crossings, rays: Rays, surfaces: Surfaces, surface: Index) -> Crossings:
     """Return hits that are sorted by ray, t and name, those of one t in the moved ray's order."""
     follows = np.ones(len(hits), bool)
     follows[run_starts(hits.ray, hits.t + 0.0)] = False  # -0 is 0
     some = np.flatnonzero(follows | np.append(follows[1:], False))
     batch, *pairs = surfaces.integers(rays, hits.ray[some], surface[some])
-    hit_of = map(batch.hit, *(v.tolist() for v in pairs))
-    met: dict[Any, Any] = dict(zip(some.tolist(), hit_of, strict=True))
+    met: dict[Any, Any] = dict(zip(some.tolist(), many.hits(batch, *pairs), strict=True))
     ray = hits.ray.tolist()
     rank = cmp_to_key(lambda a, b: ray[a] - ray[b] or sign_of_difference(met[a], met[b]))
     order = np.arange(len(hits))

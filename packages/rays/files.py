@@ -13,9 +13,7 @@ from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.vector import spread
 
 from .every import Crossings
-from .inside import Inside, rays_from
-
-ORIGINS, DIRECTIONS = "origins", "directions"
+from .inside import ALONG, Inside
 
 
 def load_rays(path: Path) -> Rays:
@@ -28,22 +26,21 @@ def load_rays(path: Path) -> Rays:
         finite, or a direction is zero; the message names the array and the row.
     """
     with npz.opened(path) as held:
-        origins, directions = (_vectors(held, name) for name in (ORIGINS, DIRECTIONS))
-        counts = {v.shape[1] for v in (origins, directions)} - {1}
-        if len(counts) > 1:
-            raise SceneError(
-                f"it has {origins.shape[1]:,} origins and {directions.shape[1]:,} directions: "
-                "there must be as many, or one for all"
-            )
-        if (still := np.flatnonzero(~directions.any(axis=0))).size:
-            raise SceneError(f"row {still[0]} of {DIRECTIONS} is zero, and leads nowhere")
+        origins = _vectors(held, "origins")
+        directions = _vectors(held, "directions")
+        counts = origins.shape[1], directions.shape[1]
+        if len({*counts, 1}) > 2:
+            said = "it has {:,} origins and {:,} directions: there must be as many, or one for all"
+            raise SceneError(said.format(*counts))
+        for row in np.flatnonzero(~directions.any(axis=0)):
+            raise SceneError(f"row {row} of directions is zero, and leads nowhere")
     return Rays(origins, directions)
 
 
 def load_points(path: Path) -> Rays:
     """Read n points, `points`, (n, 3), as the origins of rays; it raises what `load_rays` does."""
     with npz.opened(path) as held:
-        return rays_from(_vectors(held, "points"))
+        return Rays(_vectors(held, "points"), ALONG)
 
 
 @np.errstate(all="ignore")  # what a number becomes is compared
@@ -55,8 +52,8 @@ def _vectors(held: npz.Arrays, name: str) -> Floats:
     if given.shape[1:] != (3,) or given.dtype.kind not in "fiu":
         raise SceneError(f"{name} holds {given.shape} of {given.dtype}, not (n, 3) numbers")
     vectors = given.T.astype(np.float64)
-    if (bad := np.flatnonzero(~np.isfinite(vectors).all(axis=0))).size:
-        raise SceneError(f"row {bad[0]} of {name} is not finite")
+    for row in np.flatnonzero(~np.isfinite(vectors).all(axis=0)):
+        raise SceneError(f"row {row} of {name} is not finite")
     if (vectors.astype(given.dtype) != given.T).any():
         raise SceneError(f"{name} holds numbers that float64 does not: round them")
     return vectors

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from dataclasses import dataclass
+from collections.abc import Iterator
+from functools import reduce
 from pathlib import Path
 
 from reference_tracer.cli.arguments import check_frames
@@ -11,7 +12,6 @@ from reference_tracer.cli.camera_options import add_camera, choice_from
 from reference_tracer.cli.opening import SOURCES, open_frames
 from reference_tracer.cli.parser import AGREE, COUNT, POSITIVE, Parser
 from reference_tracer.cli.running import progress_bar
-from reference_tracer.framing import Choice
 from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of, scaled
@@ -21,32 +21,10 @@ from reference_tracer.wording import show
 from .files import Total
 
 
-@dataclass(frozen=True)
-class VisibleOptions:
-    """The options of `reftrace visible`."""
-
-    scene: Path
-    out: Path
-    choice: Choice
-    frames: str | None  # as they are typed
-    limit: float
-    work: int
-
-    @classmethod
-    def parsed(cls, given: Namespace) -> VisibleOptions:
-        """Return what was parsed; raises SceneError if options contradict one another."""
-        if folders.place_of(given.out) == folders.place_of(given.scene):
-            raise SceneError(f"--out '{given.out}' is the scene that is read: choose another")
-        if given.frames is not None:
-            check_frames(given, ())
-        choice = choice_from(given, given.scene, given.frames is not None)
-        return cls(given.scene, given.out, choice, given.frames, given.limit, given.work)
-
-
 def add(parser: Parser) -> None:
     """Add the command's options."""
     parser.runs(
-        lambda given: find(VisibleOptions.parsed(given)),
+        find,
         "reftrace visible scene.blend --out visible.npz\n"
         "  reftrace visible scene.blend --frames all --out visible.npz",
     )
@@ -57,7 +35,7 @@ def add(parser: Parser) -> None:
         type=parser.path_ending(".npz"),
         metavar="FILE.npz",
         help="the file to write: seen (0 hidden, 1 seen, 2 undecided), witness and area of each "
-        "face; FILE.json beside it has the counts of each object",
+        "face; FILE.json beside it has each object's counts, and each frame's camera",
     )
     parser.add_argument(
         "--limit",
@@ -83,24 +61,30 @@ def add(parser: Parser) -> None:
     add_camera(parser)
 
 
-def find(options: VisibleOptions) -> int:
+def find(given: Namespace) -> int:
     """Decide every face, and write what is found."""
-    scene, choice, named = options.scene, options.choice, options.frames
-    with folders.made_for_file(options.out):
-        total = None
-        frames = []
-        said: dict[str, None] = {}
-        for frame, file in open_frames(scene, choice, named, whole=True):
-            said |= dict.fromkeys(file.manifest.remarks())
-            with progress_bar() as progress:
-                work = steps(file.scene, options.limit, options.work)
-                work = scaled(work, 0.0, None, f"frame {frame}" if named else "")
-                found = result_of(work, progress)
-            add = total.add if total else Total.of
-            total = add(file.scene, found, frame)
-            frames.append(frame)
-        if total is None:
-            raise SceneError("--frames names none")
-        total.save(options.out, frames if named else [], options.limit)
-    show(*said, *total.lines(), f"{total.summary()}: {options.out}")
+    written = given.out, given.out.with_suffix(".json")
+    read = given.scene, Path(given.camera or given.scene)
+    if {*map(folders.place_of, written)} & {*map(folders.place_of, read)}:
+        raise SceneError(f"--out '{given.out}' replaces a file that is read: choose another")
+    notes: dict[str, None] = {}
+    with folders.made_for_file(written[0]), folders.made_for_file(written[1]):
+        total = reduce(Total.add, _frames(given, notes))
+        total.save(*written, given.limit)
+    show(*notes, *total.lines(), f"Written: {given.out}")
     return AGREE
+
+
+def _frames(given: Namespace, notes: dict[str, None]) -> Iterator[Total]:
+    """Yield what is found in each frame; `notes` gets what there is to say of their scenes."""
+    of_frames = given.frames is not None
+    if of_frames:
+        check_frames(given, ())
+    choice = choice_from(given, given.scene, of_frames)
+    for frame, opened in open_frames(given.scene, choice, given.frames, whole=True):
+        notes |= dict.fromkeys(opened.manifest.remarks())
+        work = steps(opened.scene, given.limit, given.work)
+        with progress_bar() as progress:
+            work = scaled(work, 0.0, None, f"frame {frame}" if of_frames else "")
+            found = result_of(work, progress)
+        yield Total(opened.scene, found, frame)

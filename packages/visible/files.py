@@ -2,127 +2,108 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from reference_tracer.arrays import Array, Index
+from reference_tracer.arrays import Array, Floats
 from reference_tracer.files import npz
 from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.visible import HIDDEN, SEEN, UNDECIDED, Visible
-from reference_tracer.wording import count_of
+from reference_tracer.visible import SEEN, Visible
 
 SCHEMA = "reference_tracer.visible/1"
+_KINDS = "hidden", "seen_from_front", "undecided", "seen_from_behind"  # by Visible.seen; and
+_BEHIND = 3
+_BEHIND = 3  # beside HIDDEN, SEEN and UNDECIDED: seen, and from behind
 
 
-@dataclass(eq=False)
 class Total:
-    """What is seen of the faces of a scene in any of some frames.
+    """What is seen of the faces of a scene, in one frame or in any of several.
 
-    `found` has each face's witness in the first frame that sees it, `frame` (m,), and the largest
-    area that may be seen of it in any frame. `count` (m,) is in how many frames it is seen.
+    `arrays` are those of the file. A face has what :class:`Visible` has of it in the frame that
+    shows most of it, the first such; and `witness_frame`, that frame, or -1 if it is not seen.
     """
 
-    scene: Scene
-    found: Visible
-    frame: Index
-    count: Index
-
-    @classmethod
-    def of(cls, scene: Scene, found: Visible, frame: int = 0) -> Total:
-        """Return that of one frame."""
+    def __init__(self, scene: Scene, found: Visible, frame: int) -> None:
         seen = found.seen == SEEN
-        return cls(scene, found, np.where(seen, frame, -1), seen.astype(np.int32))
+        self.arrays: dict[str, Array] = {
+            **vars(found),
+            "frames": seen.astype(np.int32),
+            "witness_frame": np.where(seen, np.int32(frame), np.int32(-1)),
+            "object": scene.instance_objects[: len(scene.instances)],
+            "objects": np.array(scene.objects, dtype=str),
+        }
+        self.cameras = {frame: scene.camera.to_dict()}
+        self.faces = [
+            (scene.objects[i.object], hash(scene.meshes[i.mesh].triangles.tobytes()))
+            for i in scene.instances
+        ]
 
-    def add(self, scene: Scene, found: Visible, frame: int) -> Total:
-        """Return that of another frame, too.
+    def add(self, other: Total) -> Total:
+        """Take in what is found in a later frame, and return this.
 
         Raises
         ------
         SceneError
             If its faces are other ones.
         """
-        if _names(scene) != _names(self.scene) or not np.array_equal(found.start, self.found.start):
-            raise SceneError(
-                f"frame {frame} has other objects or faces than the frames before: its faces are "
-                "not theirs; choose frames in which they stay"
-            )
-        before, seen = self.found, found.seen == SEEN
-        new = seen & (before.seen != SEEN)
-        state = np.maximum(before.seen, found.seen)
-        state[seen | (before.seen == SEEN)] = SEEN
-        both = Visible(
-            state,
-            np.where(new[:, None], found.witness, before.witness),
-            np.where(state == UNDECIDED, np.maximum(before.area, found.area), 0),
-            np.where(new, found.behind, before.behind),
-            found.start,
-        )
-        frames = np.where(new, frame, self.frame)
-        return Total(scene, both, frames.astype(np.int32), self.count + seen)
+        frame = max(other.cameras)
+        for before, now in zip_longest(self.faces, other.faces):
+            if before != now:
+                name, _ = before or now
+                raise SceneError(
+                    f"frame {frame} has other objects or faces than the frames before, from "
+                    f"'{name}' on: choose frames in which they stay"
+                )
+        more = other._shown() > self._shown()
+        for name in ("seen", "witness", "area", "behind", "witness_frame"):
+            self.arrays[name][more] = other.arrays[name][more]
+        self.arrays["frames"] += other.arrays["frames"]
+        self.cameras |= other.cameras
+        return self
 
-    def rows(self) -> list[dict[str, object]]:
-        """Return what is found of each object."""
-        found = self.found
-        of = np.repeat(
-            self.scene.instance_objects[: len(self.scene.instances)], np.diff(found.start)
-        )
-        rows = []
-        for number, name in enumerate(self.scene.objects):
-            own = of == number
-            hidden, seen, undecided = np.bincount(found.seen[own], minlength=3).tolist()
-            rows.append(
-                {
-                    "object": name,
-                    "faces": hidden + seen + undecided,
-                    "seen": seen,
-                    "seen_from_behind": int(found.behind[own].sum()),
-                    "hidden": hidden,
-                    "undecided": undecided,
-                    "largest_area": float(np.max(found.area[own], initial=0.0)),
-                }
-            )
-        return rows
+    def _shown(self) -> Floats:
+        """Return how much may be seen of each face, (m,): below 0 if it is hidden."""
+        return np.choose(self.arrays["seen"], (-1.0, np.inf, self.arrays["area"]))
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return how many faces of each object are found to be what, and of all at the end."""
+        found = self.arrays
+        names = [*found["objects"].tolist(), "all"]
+        of = np.repeat(found["object"], np.diff(found["start"]))
+        counts = np.zeros((len(names), len(_KINDS)), int)
+        np.add.at(counts, (of, np.where(found["behind"], _BEHIND, found["seen"])), 1)
+        counts[-1] = counts.sum(axis=0)
+        return [
+            {"object": name, **dict(zip(_KINDS, row, strict=True))}
+            for name, row in zip(names, counts.tolist(), strict=True)
+        ]
 
     def lines(self) -> list[str]:
-        """Return a line for each object that has faces."""
+        """Return a line for each object, one for all, and how little is undecided."""
         line = (
-            "{object}: {seen:,} of {faces:,} faces seen, {seen_from_behind:,} of them from behind; "
-            "{undecided:,} undecided, at most {largest_area:.2g} px² each"
+            "{object}: {seen_from_front:,} faces seen from the front, {seen_from_behind:,} from "
+            "behind, {hidden:,} hidden, {undecided:,} undecided"
         )
-        return [line.format(**row) for row in self.rows() if row["faces"]]
+        area = np.max(self.arrays["area"], initial=0.0)
+        return [
+            *(line.format(**row) for row in self.rows()),
+            f"at most {area:.2g} px² may be seen of each that is undecided",
+        ]
 
-    def save(self, path: Path, frames: Sequence[int], limit: float) -> None:
-        """Write the arrays into `path`, and what they come to into the .json beside it."""
-        scene, found = self.scene, self.found
-        arrays: dict[str, Array] = {
-            **vars(found),
-            "object": scene.instance_objects[: len(scene.instances)],
-            "objects": np.array(scene.objects, dtype=str),
-        }
-        if frames:
-            arrays |= {"frames": self.count, "witness_frame": self.frame}
-        with folders.replacing_file(path) as new:
-            npz.save(new, arrays)
+    def save(self, arrays: Path, counts: Path, limit: float) -> None:
+        """Write the arrays into an .npz, and what they come to into a .json beside it."""
+        *objects, whole = self.rows()
         content = {
             "schema": SCHEMA,
             "limit": limit,
-            "frames": [*frames],
-            "camera": scene.camera.to_dict(),
-            "objects": self.rows(),
+            "frames": [*self.cameras],
+            "cameras": [*self.cameras.values()],
+            "objects": objects,
+            "all": whole,
         }
-        folders.write_json(path.with_suffix(".json"), content)
-
-    def summary(self) -> str:
-        """Return in one line how many faces are seen, hidden and undecided."""
-        states = np.bincount(self.found.seen, minlength=3)
-        return (
-            f"{count_of(len(self.found.seen), 'face')}: {states[SEEN]:,} seen, "
-            f"{states[HIDDEN]:,} hidden, {states[UNDECIDED]:,} undecided"
-        )
-
-
-def _names(scene: Scene) -> list[str]:
-    return [scene.objects[i.object] for i in scene.instances]
+        with folders.replacing(arrays.parent, (arrays.name, counts.name)) as new:
+            npz.save(new / arrays.name, self.arrays)
+            folders.write_json(new / counts.name, content)

@@ -108,7 +108,7 @@ def test_what_takes_long_is_said_before_each_frame(heavy, monkeypatch, tmp_path)
     wave.levels = 5
     wave.keyframe_insert("show_on_cage", frame=1)  # so that each frame evaluates it anew
     monkeypatch.setattr(slowest, "LONG", 0.01)
-    events = compare_frames(str(tmp_path), range(1, 3))
+    events = compare_frames(tmp_path, range(1, 3))
     said = [e.words for e in events if isinstance(e, Progress) and "Blender" in e.words]
     assert said[1:] == [
         "frame 1: Blender evaluates 'Heavy'",

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.drawing import drawings
 from reference_tracer.blender.live import like_for_like, shows, view
 from reference_tracer.blender.live.scene import ViewScene
 from reference_tracer.blender.reading.camera import export_camera
@@ -23,13 +24,13 @@ def difference(build, monkeypatch):
     build.far_camera()
     drawn = []
 
-    def picture(scene, judge, camera, depsgraph):
+    def picture(scene, judge, camera, depsgraph, *_):
         items = bpy.context.evaluated_depsgraph_get().object_instances
         drawn.extend(i.object.name for i in items if i.object.type == "MESH" and i.show_self)
         yield from ()  # nothing is drawn
         return np.zeros((camera.region.height, camera.region.width, 4), np.float32)
 
-    monkeypatch.setattr(like_for_like, "picture", picture)
+    monkeypatch.setattr(drawings, "picture", picture)
     monkeypatch.setattr(like_for_like, "snapping_of", lambda judge: 1 / 256)
 
     def make():

@@ -45,7 +45,7 @@ def test_no_box_that_could_be_seen_is_outside(orthographic):
             [0.3, 3.0], (k, 1)
         )
         low, high = np.sort(rng.normal(size=(2, k, 3)), axis=0).astype(np.float32)
-        out = outside(camera, low, high, matrices)
+        out = outside(camera, np.stack((low, high)).swapaxes(1, 2), matrices.transpose(1, 2, 0))
         left_out += out.sum()
         shares = np.concatenate((np.indices((2, 2, 2)).reshape(3, 8), rng.random((3, 200))), axis=1)
         for i in range(k):
@@ -65,7 +65,8 @@ def test_what_has_no_finite_box_is_never_outside():
     low, high = behind - 1, behind + 1
     matrices = np.tile(np.eye(4), (3, 1, 1))
     high[0, 0], matrices[1, 0, 3] = np.nan, np.inf
-    assert outside(camera, low, high, matrices).tolist() == [False, False, True]
+    bounds = np.stack((low.T, high.T))
+    assert outside(camera, bounds, matrices.transpose(1, 2, 0)).tolist() == [False, False, True]
 
 
 def scatter(build) -> None:
@@ -93,7 +94,7 @@ def keeping_all(monkeypatch):
 
     def keep() -> None:
         monkeypatch.setattr(
-            export_module, "outside", lambda camera, low, *_: np.zeros(len(low), bool)
+            export_module, "outside", lambda _, bounds, *__: np.zeros(bounds.shape[2], bool)
         )
 
     return keep

@@ -32,14 +32,14 @@ def saved(build, tmp_path):
 
 def rows(out):
     found = json.loads(out.with_suffix(".json").read_text())
-    return {row["object"]: row["seen"] for row in found["objects"]}, found["frames"]
+    return {row["object"]: row["seen_from_front"] for row in found["objects"]}, found["frames"]
 
 
 def test_frames_and_cameras(saved, reftrace, tmp_path):
     out = tmp_path / "found.npz"
     for options, expected, frames in (
-        ((), {"Low": 0, "Lid": 2}, []),
-        (("--camera", "Beside"), {"Low": 0, "Lid": 0}, []),
+        ((), {"Low": 0, "Lid": 2}, [0]),
+        (("--camera", "Beside"), {"Low": 0, "Lid": 0}, [0]),
         (("--frames", "1-2"), {"Low": 0, "Lid": 2}, [1, 2]),
         (("--frames", "all"), {"Low": 2, "Lid": 2}, [1, 2, 3, 4]),
     ):

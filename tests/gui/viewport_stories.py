@@ -301,7 +301,7 @@ def with_hair(stored, drawn):
 
 def counted_drawings():
     """Return a list that gets an item with each drawing that a view asks Blender for."""
-    ours = module("blender.live.like_for_like")
+    ours = module("blender.drawing.drawings")
     drawn, draw = [], ours.picture
 
     def counting(*arguments):

@@ -38,7 +38,6 @@ TUNING = {
     "sweep.rasterise": dict.fromkeys(
         ("FINE", "COARSE"), "the size of a cell of pixels: what no edge rules out is kept"
     ),
-    "sweep.small_boxes": {"SIDE + 1": "a key for sorting boxes by their size, in integers"},
     "sweep.sweep": {
         "_PAIRS": _STEP,
         "_FRAGMENTS": _ROOM,
@@ -63,8 +62,7 @@ HAND = {
         "4": "the boxes of instances: what lies between the corners is rounded like them",
         "0.25 * _MARGIN": "the boxes of instances: a corner is off by less than their margin",
     },
-    "sweep.film": dict.fromkeys(("2.0 ** (-50)", "DELTA"), "certain_error: its docstring"),
-    "sweep.small_boxes": {"SIDE": "are_small: which triangles its head's bounds are for"},
+    "sweep.film": {"_HUGE": "with_room: of what may be larger, the size is taken to be infinite"},
 }
 # Proven otherwise than by an expression of floats.
 ELSEWHERE = {

@@ -44,7 +44,6 @@ LISTED = {
     "certified/measures.py Prepared.meet": {"len(self._edges.T)": EMPTY},
     "certified/sweep/depth_buffer.py DepthBuffer.enter": {"len(pixel) or not fragments": EMPTY},
     "certified/sweep/edge_functions.py set_up": {"len(unsure)": EMPTY},
-    "certified/sweep/small_boxes.py _pairs": {"len(edge_on)": EMPTY},
     "certified/ties.py seen_and_ties": dict.fromkeys(
         ("not front or (len(front) == 1 and (not front[0][1].on_edge))", "len(front) == 1"),
         "the rule itself: recorded with one hit, and with two",
@@ -65,7 +64,7 @@ ONE = "its record makes the arrays that it works on, of one column"
 # By record: which are recorded in one column only, and why.
 ONE_COLUMN = {
     **dict.fromkeys(("unit_from_point", "around_directions", "around_origins", "pair"), ALL),
-    **dict.fromkeys(("small", "small_one", "enter", "box", "are_small", "are_small_some"), ONE),
+    **dict.fromkeys(("enter", "box"), ONE),
     **dict.fromkeys(("plane_pixel_perspective", "plane_pixel_parallel", "square"), ONE),
 }
 

@@ -76,9 +76,9 @@ LEFT_OUT = {
         SORTS: "neighbours _cuts",
     },
     "triangle_tree.py": {
-        BOXES_BY_HAND: "_Sheared.of _triangles TriangleTree.pairs",
-        WHICH: "TriangleTree.of TriangleTree.made_of",
-        LEAST: "_boxes",
+        BOXES_BY_HAND: "TriangleTree.pairs",
+        WHICH: "TriangleTree.of",
+        LEAST: "TriangleTree.made_of",
     },
     "sweep/boxes.py": {
         BOXES: "_corners_with_room",
@@ -100,13 +100,12 @@ LEFT_OUT = {
     },
     "sweep/film.py": {CALLS: "Film.dual Film.is_sound", FLOAT32: "Film.rows with_room"},
     "sweep/rasterise.py": {WHICH: "Boxes.size rasterised split cells"},
-    "sweep/small_boxes.py": {CALLS: "small_pairs", WHICH: "_blocks _pixels"},
     "sweep/small_triangles.py": {
         FLOAT32: "SmallTriangles.__init__ SmallTriangles.within SmallTriangles._ends"
     },
     "sweep/sweep.py": {
         CALLS: "sweep Sweep.__init__ Sweep.steps Sweep._instances Sweep._keep "
-        "Sweep._make_room Sweep.enter Sweep._enter_triangles Sweep._enter_large "
+        "Sweep._make_room Sweep.enter Sweep._enter_triangles Sweep._enter_functions "
         "Sweep.pairs _FullError.__init__",
     },
     "sweep/resolve.py": {CALLS: "Resolver.steps Resolver._enter_open Resolver._decide"},

@@ -48,11 +48,11 @@ blender/ui/long_work.py LongWork.invoke
     blender/ui/operators.py REFERENCE_TRACER_OT_compare.begin
       blender/jobs/compare.py compare_open_file
         blender/jobs/compare.py gather_case
-          blender/jobs/compare.py _Export
+          blender/jobs/compare.py _export
             blender/reading/export.py export
           blender/drawing/drawings.py Plan.drawn
             blender/drawing/drawings.py Plan._drawn
-              blender/drawing/drawings.py _turns
+              blender/drawing/drawings.py turns
                 blender/drawing/picture.py picture
         comparison/comparing.py compared
           comparison/comparing.py trace_and_compare

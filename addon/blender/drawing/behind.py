@@ -52,7 +52,7 @@ def behind(
     plan = replace(drawing.plan, left_out=tuple(left))
 
     def export_without(_: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
-        return Drawing(plan, *export(depsgraph))
+        return Drawing(plan, *export(depsgraph), used)
 
     try:
         drawn = plan.drawn(export_without, identity)

@@ -19,6 +19,7 @@ import numpy as np
 from ...arrays import Colors
 from ...causes.checks.unmodelled import covered
 from ...manifest import Effect, Manifest, Unmodelled
+from ...pictures.certificate import CameraCertificate
 from ...pictures.drawn_over import DrawnOver
 from ...pictures.identity import MOST_OBJECTS, NOTHING, Owners, colors_of, decode
 from ...pictures.palette import VIEWPORT, Palette
@@ -76,7 +77,7 @@ class Plan:
     def _drawn(self, export: Export, identity: bool) -> Drawn:
         """Export and draw one evaluation."""
         with self.prepared() as (tmp, used):
-            return evaluated(tmp, self.judge, _turns(tmp, used, export, identity))
+            return evaluated(tmp, self.judge, turns(tmp, used, export, identity))
 
 
 def _is_changed(obj: Any) -> bool:
@@ -94,6 +95,8 @@ class Drawing(NamedTuple):
     plan: Plan
     exported: Scene
     manifest: Manifest
+    used: dict[str, Any]  # the settings that it is drawn with
+    certificate: CameraCertificate | None = None  # how close its camera is to Blender's
 
     def again(self, features: Sequence[Unmodelled] = (), identity: bool = False) -> Drawn:
         """Draw the scene anew, without some features that draw themselves."""
@@ -113,8 +116,8 @@ class Drawn(NamedTuple):
 Export: TypeAlias = Callable[[Any, dict[str, Any], Any], Drawing]
 
 
-def _turns(
-    tmp: bpy.types.Scene, used: dict[str, Any], export: Export, identity: bool
+def turns(
+    tmp: bpy.types.Scene, used: dict[str, Any], export: Export, identity: bool = False
 ) -> Turns[Drawn]:
     """Export an evaluation, have it drawn, and again in a colour for each object."""
     depsgraph = yield False

@@ -41,9 +41,6 @@ class Judge:
     set_up: Callable[[Any, Any], AbstractContextManager[None]] | None = None
     # Pixels: how far its samples may lie from a pixel's centre, like for like.
     sample_radius: float = 0.0
-    # Pixels from its centre that its anti-aliasing mixes. Workbench's samples lie within a pixel
-    # and a half; what smooths their edges takes in the pixel beside.
-    filter_radius: float = 2.0
     # Metres: Embree draws, which takes triangles with a coordinate beyond for invalid; else inf.
     farthest: float = math.inf
     traces_rays: bool = False  # a rasteriser rounds the corners of triangles, a ray tracer does not

@@ -18,6 +18,7 @@ from ...arrays import Colors
 from ...pictures.source import SizeError
 from ...scene import Camera
 from ..evaluating import evaluated
+from ..reading.pictures import pixels_of
 from ..temporary import made_for
 from ..turns import Turns
 from ..versions import set_format
@@ -155,8 +156,6 @@ def read(scene: Scene, path: Path, colorspace: str = "") -> Colors:
     image: Any = made_for(scene, bpy.data.images.load(str(path)))
     if colorspace:
         image.colorspace_settings.name = colorspace
-    width, height = image.size
-    pixels = np.empty(width * height * 4, np.float32)
-    image.pixels.foreach_get(pixels)
+    pixels = pixels_of(image)
     image.buffers_free()
-    return pixels.reshape(height, width, 4)
+    return pixels

@@ -65,7 +65,7 @@ def gather_against(
     palette, scene, manifest = exported_in(context, colors)
     judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
     layer = context.view_layer.name
-    drawing = Drawing(Plan(context.scene, layer, judge, palette=palette), scene, manifest)
+    drawing = Drawing(Plan(context.scene, layer, judge, palette=palette), scene, manifest, {})
     shown = picture if isinstance(picture, Picture) else picture(drawing)
     return Case(
         scene,
@@ -144,8 +144,7 @@ def view_transforms(user: bpy.types.Scene, scene: Scene) -> tuple[Curve, ...]:
 
     They hold for the colours of what was exported of it; the user's scene stays as it is.
     """
-    rows = [scene.color_table, [scene.background], *([p.color] for p in scene.planes)]
-    table = np.unique(np.concatenate(rows)[:, :3], axis=0)
+    table = np.unique(scene.color_table[:, :3], axis=0)
     if len(table) > MOST_COLORS or any(m.corner_colors is not None for m in scene.meshes):
         return ()
     with temporary_scene(user) as tmp:

@@ -21,7 +21,6 @@ from ...report import animation as report
 from ...scene import SceneError
 from ...tracer.progress import Found, Progress, Work, scaled
 from ..drawing.judges import OF_ONE_FRAME, STILLS
-from ..paths import made_folder
 from ..reading.camera import export_camera
 from ..slowest import announced
 from ..values import values_restored
@@ -35,7 +34,7 @@ _ADDON = __package__.rsplit(".", 2)[0]  # which imports this, and must not be im
 
 
 def compare_frames(
-    directory: str,
+    folder: Path,
     frames: range,
     made_by: Any = None,
     views: Mapping[int, View] | None = None,
@@ -47,8 +46,8 @@ def compare_frames(
 
     Parameters
     ----------
-    directory : str
-        The folder for all that is written.
+    folder : Path
+        Of all that is written.
     frames : range
     made_by : dict, optional
         What the comparisons depend on. Frames that are whole in the folder and were made by the
@@ -67,7 +66,6 @@ def compare_frames(
     scene = bpy.context.scene
     if Choices.of(scene, choices).judge in STILLS:
         raise SceneError(f"{OF_ONE_FRAME}.")
-    folder = made_folder(directory)
     if not (views or scene.camera or any(marker.camera for marker in scene.timeline_markers)):
         export_camera(scene)  # says so once, not in each frame
     title = f"{bpy.path.basename(bpy.data.filepath)}, {scene.name}"
@@ -109,7 +107,7 @@ def _compared(
         # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
         choices = choices | {"diagnose": False, "literal": False}
         with seen_by(bpy.context.scene, view):
-            comparison = yield from compare_open_file(bpy.context, str(own), **choices)
+            comparison = yield from compare_open_file(bpy.context, own, **choices)
     except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
         return FrameRow(frame, error=words(error))
     report.mark_whole(folder, frame, made_by)

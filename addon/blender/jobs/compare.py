@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -18,7 +19,6 @@ from ...causes.case import Case
 from ...comparison.comparing import compared
 from ...comparison.comparison import Comparison
 from ...manifest import Manifest
-from ...pictures.certificate import CameraCertificate
 from ...pictures.identity import Owners
 from ...pictures.palette import VIEWPORT, By
 from ...pictures.picture import Picture
@@ -38,7 +38,6 @@ from ..drawing.judges import judge_or_none
 from ..drawing.rasteriser import snapping_of
 from ..drawing.shading import of_shading, solid_shading
 from ..evaluating import export_at
-from ..paths import made_folder
 from ..reading.camera import certify_camera, export_camera
 from ..reading.export import export
 from ..reading.palettes import automatic, noted, palette_by
@@ -48,6 +47,10 @@ from ..values import is_animated
 from .given import gather_given
 from .open_file import Choices
 from .variants import variants
+
+# Pixels from a pixel's centre that Blender's anti-aliasing mixes. Workbench's samples lie within a
+# pixel and a half; what smooths their edges takes in the pixel beside.
+_FILTER_RADIUS = 2.0
 
 
 def gather_case(context: Context, **choices: Any) -> Case:
@@ -77,9 +80,8 @@ def gather_case(context: Context, **choices: Any) -> Case:
     snapping = snapping_of(judge)  # its drawing is the first, which may differ from the others
     there = _names(user)
     is_automatic = plan.like_for_like and chosen.colors == By.AUTOMATIC
-    exporting = _Export(plan, is_automatic)
-    drawing, pixels, owners = plan.drawn(exporting, chosen.identity)
-    made = partial(_picture, judge=judge, used=exporting.used, snapping=snapping)
+    drawing, pixels, owners = plan.drawn(partial(_export, plan, is_automatic), chosen.identity)
+    made = partial(_picture, judge=judge, used=drawing.used, snapping=snapping)
     shown = made(pixels, owners=owners)
     later = _a_frame_later(drawing) if chosen.self_check else None
     shown, manifest = with_what_draws_itself(drawing, shown, chosen.identity)
@@ -91,7 +93,7 @@ def gather_case(context: Context, **choices: Any) -> Case:
         # Like for like, Blender's picture has one sample in a pixel: so has the traced one.
         replace(chosen.settings, samples=1) if plan.like_for_like else chosen.settings,
         shown,
-        exporting.certificate,
+        drawing.certificate,
         self_check=chosen.self_check,
         next_frame=later,
         tracer=chosen.tracer,
@@ -114,39 +116,28 @@ def _planned(context: Context, chosen: Choices, judge: Judge) -> Plan:
     return Plan(scene, context.view_layer.name, judge, not chosen.as_is, shading, palette)
 
 
-class _Export:
-    """Exports a scene in the colours that are wanted, and refuses what the judge cannot draw."""
-
-    used: dict[str, Any]  # the settings that the scene is drawn with
-    certificate: CameraCertificate | None  # how close its camera is to Blender's
-
-    def __init__(self, plan: Plan, is_automatic: bool) -> None:
-        self._plan = plan
-        self._is_automatic = is_automatic
-
-    def __call__(self, tmp: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
-        plan = self._plan
-        meshes: dict[Any, Any] = {}
+def _export(
+    plan: Plan, is_automatic: bool, tmp: Any, used: dict[str, Any], depsgraph: Depsgraph
+) -> Drawing:
+    """Export a scene in the colours that are wanted, and refuse what the judge cannot draw."""
+    meshes: dict[Any, Any] = {}
+    scene, manifest = export(depsgraph, meshes)
+    certificate = certify_camera(depsgraph, scene.camera)
+    palette = automatic(plan.scene, scene, manifest) if is_automatic else plan.palette
+    if palette.by != plan.palette.by:
+        animated = {o.name_full for o in bpy.data.objects if is_animated(o, "color")}
+        show_in(tmp, depsgraph, {n: c for n, c in palette.colors.items() if n not in animated})
+        used |= {"color_type": "OBJECT", "colors": palette.by.value}
         scene, manifest = export(depsgraph, meshes)
-        self.certificate = certify_camera(depsgraph, scene.camera)
-        if self._is_automatic:
-            plan = replace(plan, palette=automatic(plan.scene, scene, manifest))
-        palette = plan.palette
-        if palette.by != self._plan.palette.by:
-            animated = {o.name_full for o in bpy.data.objects if is_animated(o, "color")}
-            show_in(tmp, depsgraph, {n: c for n, c in palette.colors.items() if n not in animated})
-            used |= {"color_type": "OBJECT", "colors": palette.by.value}
-            scene, manifest = export(depsgraph, meshes)
-        self.used = used
-        manifest = noted(palette, scene, manifest)
-        if self.certificate:
-            self.certificate.check()
-        if plan.like_for_like:
-            _check_colors(plan.judge, scene, manifest, used["color_type"], tmp)
-        else:
-            of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
-            manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_picture))
-        return Drawing(plan, scene, manifest)
+    manifest = noted(palette, scene, manifest)
+    if certificate:
+        certificate.check()
+    if plan.like_for_like:
+        _check_colors(plan.judge, scene, manifest, used["color_type"], tmp)
+    else:
+        of_picture = of_shading(tmp, plan.judge, used["anti_aliasing"])
+        manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *of_picture))
+    return Drawing(replace(plan, palette=palette), scene, manifest, used, certificate)
 
 
 def _check_colors(
@@ -174,7 +165,7 @@ def _picture(
         Source(judge.name, bpy.app.version_string, settings=used),
         sampling=Sampling(
             judge.sample_radius,
-            0.0 if smooth == "OFF" else judge.filter_radius,
+            0.0 if smooth == "OFF" else _FILTER_RADIUS,
             snapping,
             judge.farthest,
             EMBREE if judge.traces_rays else RASTER,
@@ -192,7 +183,7 @@ def _a_frame_later(drawing: Drawing) -> Scene:
 
 def compare_open_file(
     context: Context,
-    directory: str = "",
+    folder: Path | None = None,
     trade: bool = False,
     extremes: bool = False,
     literal: bool = True,
@@ -200,19 +191,18 @@ def compare_open_file(
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing, diagnosing, and writing the files.
 
-    Nothing is written if the directory is empty. With `trade` and `extremes`, these are measured
+    Nothing is written without a folder. With `trade` and `extremes`, these are measured
     for the page, too. The page has the literal textbook's picture, if that is wanted. The choices
     are the fields of :class:`Choices`. On failure the JSON of a folder without results says why.
 
     Raises
     ------
-    OSError
-        If the folder cannot be written; else what :func:`gather_case` and the comparison raise.
+    SceneError, RuntimeError
+        What :func:`gather_case` raises; the work, what the comparison and writing raise.
     """
     diagnose = Choices.of(context.scene, choices).diagnose
-    if not directory:
+    if folder is None:
         return compared(gather_case(context, **choices), diagnose)
-    folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
     return comparison_report.written(folder, case, diagnose, trade, extremes, literal)

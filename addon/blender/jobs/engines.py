@@ -23,27 +23,23 @@ from ...scene import SceneError
 from ...tracer.progress import Work, scaled
 from ..drawing.engines import others
 from ..drawing.judges import JUDGES
-from ..paths import made_folder
 from .compare import gather_case
 from .open_file import Choices
 
 
 def compare_all(
-    context: Context, directory: str = "", **choices: Any
+    context: Context, folder: Path | None = None, **choices: Any
 ) -> Work[tuple[EngineRow, ...]]:
     """Have every engine draw the scene at once; return the work of comparing each.
 
-    Each comparison goes to a folder of its own in the directory, and the table into it; nothing is
-    written if it is empty. The choices are the fields of :class:`Choices`.
+    Each comparison goes to a folder of its own in this one, and the table into it; nothing is
+    written without one. The choices are the fields of :class:`Choices`.
 
     Raises
     ------
     SceneError
         If no engine makes a picture.
-    OSError
-        If the folder cannot be written.
     """
-    folder = made_folder(directory) if directory else None
     known = (*JUDGES.values(), *others().values())
     here = [j.name for j in known if not (j.needs_window and bpy.app.background)]
     drawn: list[tuple[str, Case | str]] = []  # or why there is no picture

@@ -11,17 +11,16 @@ from ...arrays import Bools, Integers
 from ...scene import SceneError
 
 
-def store(mesh: Any, name: str, values: Integers) -> None:
-    """Store whole numbers with a mesh's faces.
-
-    Raises
-    ------
-    SceneError
-        If the mesh has another attribute of the name.
-    """
-    there = mesh.attributes.get(name) or mesh.attributes.new(name, "INT", "FACE")
-    if (there.data_type, there.domain) != ("INT", "FACE"):
+def check_free(mesh: Any, name: str) -> None:
+    """Raise a SceneError if a mesh has an attribute of the name, but not whole numbers of faces."""
+    there = mesh.attributes.get(name)
+    if there and (there.data_type, there.domain) != ("INT", "FACE"):
         raise SceneError(f"Mesh '{mesh.name}' has another attribute '{name}': rename it")
+
+
+def store(mesh: Any, name: str, values: Integers) -> None:
+    """Store whole numbers with a mesh's faces, where :func:`check_free` raises nothing."""
+    there = mesh.attributes.get(name) or mesh.attributes.new(name, "INT", "FACE")
     if not mesh.is_editmode:
         there.data.foreach_set("value", values.astype(np.int32))
         mesh.update()

@@ -105,10 +105,9 @@ def _shows_the_colors(pixels: Colors, scene: Scene) -> bool:
     """Return whether most that is drawn, (h, w, 4), has colours that a scene has."""
     if any(mesh.corner_colors is not None for mesh in scene.meshes):
         return True  # any colour between them
-    table = np.concatenate((scene.color_table, *(p.color[None] for p in scene.planes)))
     drawn = eight_bits(pixels[pixels[..., 3] > 0.5][:, :3])
     shown, count = np.unique(drawn, axis=0, return_counts=True)
     often = np.argsort(-count)[:_MOST]
-    colors = np.unique(eight_bits(table[:, :3]), axis=0).astype(np.int32)
+    colors = np.unique(eight_bits(scene.color_table[:, :3]), axis=0).astype(np.int32)
     near = [(np.abs(colors - color).max(axis=1) < APART).any() for color in shown[often]]
     return bool(2 * count[often][near].sum() >= len(drawn))

@@ -1,157 +1,160 @@
 """Finds what the camera sees of the open file: objects, and the faces of some meshes.
 
 Faces are decided as a render has them. An attribute says which face of the user's mesh each comes
-from: it goes through the modifiers on a copy of the object. Of n faces, each has a code below 2^31
-whose first part is its number and whose rest is random: what a modifier mixes of several faces is
-taken for one of them with a chance of n / 2^31.
+from: it goes through the modifiers on a copy of the object. Each of n faces has a random code below
+2^31: what a modifier mixes of several is taken for one of them with a chance of n / 2^31.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from typing import Any, TypeAlias
+from collections.abc import Collection, Mapping, Sequence
+from functools import partial
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
 
 from ...arrays import Bytes, Integers
-from ...scene import Mesh, SceneError
+from ...scene import SceneError
 from ...tracer.progress import Work, scaled
 from ...visible import steps
 from ..evaluating import evaluated, export_for_render
 from ..reading.camera import export_camera
-from ..reading.meshes import read_mesh
+from ..reading.export import export
 from ..temporary import HIDDEN_FACES, everything, made_for, temporary_scene
-from ..turns import Turns
+from ..turns import once
 from ..values import values_restored
 from .stepping import stepped
 
-# Of each state; of each rank, its state. Of what appears more than once, the highest rank counts.
-RANKS = np.array([0, 2, 1], np.uint8)
-_MAY_BE = 1  # the rank of what is undecided
+# Ranks: of what appears more than once, the highest counts. STATES has the state of each, and the
+# rank of each state.
+HIDDEN, MAY_BE, SEEN = range(3)
+STATES = np.array([0, 2, 1], np.uint8)
 _CODE = "reference_tracer_face"
 _CODES = 2**31
+_LINKED = "Mesh '{}' is linked from a library: nothing is stored with its faces"
+_UNSURE = (
+    "'{}' shows faces that modifiers or a simulation made, mixed, merged or left out: which of its "
+    "own they come from is not known of all"
+)
 
-# An object's name, and the triangles of a mesh that it shows; shape keys and simulations move them.
-_Key: TypeAlias = tuple[str, bytes]
 
-
-class CameraSees:
-    """The ranks of what a scene's camera sees, over all frames that were looked at.
+class CameraSees(NamedTuple):
+    """The ranks of what a scene's camera sees.
 
     `objects` has that of each object that shows faces, by its full name: an instance is of what
-    instances it. `faces` has those of each face (n,) of the meshes that were asked for: it is seen
-    if any that modifiers made of it is, in any object. `notes` name those that are not known.
+    instances it. `faces` has those of each face (n,) of some meshes: it is seen if any that
+    modifiers made of it is, in any object. `notes` name what is not known, or cannot be stored.
     """
 
-    def __init__(self, context: Any, meshes: Collection[Any]) -> None:
-        self._scene = context.scene
-        self._layer = context.view_layer.name
-        objects: Any = bpy.data.objects
-        own = [o for o in objects if o.type == "MESH" and o.data in meshes]
-        for obj in own:
-            obj.update_from_editmode()
-        planes = {obj.data for obj in own if obj.reference_tracer.infinite_plane}  # have no faces
-        self._own: dict[str, Any] = {obj.name_full: obj for obj in own}
-        self.objects: dict[str, int] = {}
-        self.faces = {m: np.full(len(m.polygons), m in planes, np.uint8) for m in meshes}
-        self.notes: dict[str, None] = {}
-
-    def look(self, frames: Sequence[int]) -> Work[CameraSees]:
-        """Look at the scene as it is, or in some frames.
-
-        Raises
-        ------
-        SceneError
-            If it has no camera, or a panorama's, or shows no faces.
-        """
-        if not frames:
-            yield from self._look()
-        with values_restored():
-            for number, frame in enumerate(stepped(self._scene, [*frames])):
-                share = number / len(frames)
-                yield from scaled(self._look(), share, 1 / len(frames), f"frame {frame}")
-        if not self.objects:
-            raise SceneError(f"Scene '{self._scene.name}' shows no faces")
-        return self
-
-    def _look(self) -> Work[None]:
-        export_camera(self._scene)  # first: its errors name the user's scene
-        with temporary_scene(self._scene, self._layer, (HIDDEN_FACES,)) as tmp:
-            with everything(tmp):
-                scene, manifest = export_for_render(tmp)
-            codes = self._codes(tmp) if self._own else {}
-        visible = yield from steps(scene)
-        ranks = np.split(RANKS[visible.seen], visible.start[1:-1])
-        for instance, rank, owner in zip(scene.instances, ranks, manifest.owners, strict=False):
-            self.objects[owner] = max(self.objects.get(owner, 0), int(np.max(rank, initial=0)))
-            name = scene.objects[instance.object]
-            if name in self._own:
-                code = codes.get(_key(name, scene.meshes[instance.mesh]))
-                self._spread(name, np.zeros_like(rank) if code is None else code, rank)
-
-    def _spread(self, name: str, code: Integers, rank: Bytes) -> None:
-        """Give faces the ranks of the triangles (n,) that have their codes.
-
-        If one may be seen that has no face's code, so may each face.
-        """
-        faces = self.faces[self._own[name].data]
-        known = np.append(_codes_of(len(faces)), _CODES)  # the last one is nobody's
-        number = np.searchsorted(known, code)
-        found = known[number] == code
-        np.maximum.at(faces, number[found], rank[found])
-        if rank[~found].any():
-            np.maximum(faces, _MAY_BE, out=faces)
-            self.notes[
-                f"'{name}' shows faces that modifiers or a simulation made or mixed: nobody knows "
-                "which of its own they come from"
-            ] = None
-
-    def _codes(self, tmp: Any) -> dict[_Key, Integers]:
-        """Return the codes of the triangles of the objects' meshes, as a render has them.
-
-        The temporary scene has copies of the objects then, and nothing else. Where a copy has not
-        the same triangles, it is not found.
-        """
-        for items in (tmp.collection.children, tmp.collection.objects):
-            for item in items[:]:
-                items.unlink(item)
-        coded = {mesh: made_for(tmp, mesh.copy()) for mesh in self.faces}
-        for mesh in coded.values():
-            attribute = mesh.attributes.new(_CODE, "INT", "FACE")
-            attribute.data.foreach_set("value", _codes_of(len(mesh.polygons)))
-        names = {}
-        for name, obj in self._own.items():
-            copy = made_for(tmp, obj.copy())
-            copy.data = coded[obj.data]
-            copy.hide_render = False
-            for modifier in copy.modifiers if obj.mode == "EDIT" else ():
-                modifier.show_render = modifier.show_render and modifier.show_in_editmode
-            tmp.collection.objects.link(copy)
-            names[copy.name_full] = name
-        return evaluated(tmp, None, _read(names))
+    objects: dict[str, int]
+    faces: dict[Any, Bytes]
+    notes: dict[str, None]
 
 
-def _codes_of(count: int) -> Integers:
-    """Return the codes of so many faces, (n,) int32, the least first; 0 is none."""
-    part = _CODES // (count + 1)
-    codes = (1 + np.arange(count)) * part + np.random.default_rng(0).integers(0, part, count)
-    return codes.astype(np.int32)
+def look(context: Any, meshes: Collection[Any], frames: Sequence[int]) -> Work[CameraSees]:
+    """Find what is seen of all objects, and of the faces of meshes, as it is or in some frames.
 
-
-def _read(names: dict[str, str]) -> Turns[dict[_Key, Integers]]:
-    """Return the codes of copies' triangles; `names` has those of what they are copies of."""
-    found: dict[_Key, Integers] = {}
-    for item in (yield False).object_instances:
-        name = names.get(item.object.original.name_full, "")
-        if name and item.object.type == "MESH":
-            read = read_mesh(item.object, name, with_colors=False, hiding=False, slots=_CODE)
-            if read:
-                key = _key(name, read[0])
-                code = read[0].slots
-                found[key] = np.where(found.get(key, code) == code, code, 0)  # of any such mesh
+    Raises
+    ------
+    SceneError
+        If the scene has no camera, or a panorama's, or shows no faces.
+    """
+    scene = context.scene
+    layer = context.view_layer.name
+    objects: Any = bpy.data.objects
+    own = {o.name_full: o for o in objects if o.data in meshes and not o.data.library}
+    linked = (mesh.name for mesh in meshes if mesh.library)
+    found = CameraSees({}, {}, dict.fromkeys(map(_LINKED.format, linked)))
+    for obj in own.values():
+        obj.update_from_editmode()
+        unsure = MAY_BE * obj.reference_tracer.infinite_plane  # which has no faces
+        found.faces[obj.data] = np.full(len(obj.data.polygons), unsure, np.uint8)
+    if not frames:
+        yield from _look(scene, layer, own, found)
+    with values_restored():
+        for number, frame in enumerate(stepped(scene, frames)):
+            work = _look(scene, layer, own, found)
+            yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
+    if not found.objects:
+        raise SceneError(f"Scene '{scene.name}' shows no faces")
     return found
 
 
-def _key(name: str, mesh: Mesh) -> _Key:
-    return name, mesh.triangles.tobytes()
+def _look(scene: Any, layer: str, own: Mapping[str, Any], found: CameraSees) -> Work[None]:
+    """Add what is seen in this frame."""
+    export_camera(scene)  # first: its errors name the user's scene
+    with temporary_scene(scene, layer, (HIDDEN_FACES,)) as tmp, everything(tmp):
+        whole, manifest = export_for_render(tmp)
+        codes = _codes(tmp, own) if own else {}
+    visible = yield from steps(whole)
+    ranks = np.split(STATES[visible.seen], visible.start[1:-1])
+    shown: dict[str, list[tuple[Integers, Bytes]]] = {}
+    for instance, rank, owner in zip(whole.instances, ranks, manifest.owners, strict=False):
+        found.objects[owner] = max(found.objects.get(owner, HIDDEN), int(np.max(rank)))
+        name = whole.objects[instance.object]
+        if name in own:
+            triangles = whole.meshes[instance.mesh].triangles
+            code = codes.get((name, triangles.tobytes()), np.zeros_like(rank))
+            shown.setdefault(name, []).append((code, rank))
+    for name, parts in shown.items():
+        code, rank = map(np.concatenate, zip(*parts, strict=True))
+        if _spread(found.faces[own[name].data], code, rank):
+            found.notes[_UNSURE.format(name)] = None
+
+
+def _spread(faces: Bytes, code: Integers, rank: Bytes) -> bool:
+    """Give faces the ranks of an object's triangles (n,) that have their codes.
+
+    If one that has no face's code may be seen, so may each face. And if any may be seen, so may
+    each face that has left nothing: another one may have been merged with it. Returns whether there
+    is such a face.
+    """
+    known = np.append(_codes_of(len(faces)), _CODES)  # the last one is nobody's
+    number = np.searchsorted(known, code)
+    is_known = known[number] == code
+    np.maximum.at(faces, number[is_known], rank[is_known])
+    unsure = np.full(len(faces), rank.any())
+    unsure[number[is_known]] = rank[~is_known].any()
+    faces[unsure] = np.maximum(faces[unsure], MAY_BE)
+    return bool(unsure.any())
+
+
+def _codes(tmp: Any, own: Mapping[str, Any]) -> dict[tuple[str, bytes], Integers]:
+    """Return the codes of the triangles of objects' meshes, as a render has them.
+
+    They are found by the object's name and the mesh's triangles: shape keys and simulations move
+    points. The temporary scene has copies of the objects then, and nothing else.
+    """
+    for items in (tmp.collection.children, tmp.collection.objects):
+        for item in items[:]:
+            items.unlink(item)
+    coded = {obj.data: made_for(tmp, obj.data.copy()) for obj in own.values()}
+    for mesh in coded.values():
+        attribute = mesh.attributes.new(_CODE, "INT", "FACE")
+        attribute.data.foreach_set("value", _codes_of(len(mesh.polygons)))
+    names = {}
+    for name, obj in own.items():
+        copy = made_for(tmp, obj.copy())
+        copy.data = coded[obj.data]
+        copy.hide_render = False
+        for modifier in copy.modifiers if obj.mode == "EDIT" else ():
+            # What is edited is evaluated so, for a render, too.
+            is_on = modifier.show_viewport and modifier.show_in_editmode
+            modifier.show_render = is_on and getattr(modifier, "levels", 1) > 0
+        tmp.collection.objects.link(copy)
+        names[copy.name_full] = name
+    copies, _ = evaluated(tmp, None, once(partial(export, slots=_CODE)))
+    found: dict[tuple[str, bytes], Integers] = {}
+    for instance in copies.instances:
+        mesh = copies.meshes[instance.mesh]
+        key = names.get(copies.objects[instance.object], ""), mesh.triangles.tobytes()
+        code = mesh.slots
+        found[key] = np.where(found.get(key, code) == code, code, 0)  # of any such mesh
+    return found
+
+
+def _codes_of(count: int) -> Integers:
+    """Return different codes of so many faces, (n,) int32, in order; 0 is none."""
+    codes = np.random.default_rng(0).choice(_CODES - 1, count, replace=False)
+    return (1 + np.sort(codes)).astype(np.int32)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import textwrap
 import time
 from collections.abc import Iterable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,7 @@ void main() { place = at; gl_Position = ModelViewProjectionMatrix * vec4(pos, 0.
 _FETCHED = "void main() { color = texelFetch(image, ivec2(floor(place)), 0); }"
 
 
+@cache
 def pixel_shader(fragment: str = _FETCHED) -> GPUShader:
     """Return a shader that shows a texture, each of its pixels as it is, or as a source says.
 
@@ -56,7 +58,6 @@ class Layers:
 
     def __init__(self) -> None:
         self._textures: list[Textures] = []
-        self._shader: Any = None
 
     def add(self, picture: Picture, place: Place) -> None:
         """Have a picture drawn over the others, unless it is one of them."""
@@ -65,12 +66,11 @@ class Layers:
 
     def draw(self, width: int, height: int, until: float) -> bool:
         """Draw what is done over a region, in pixels; return whether the time was too short."""
-        self._shader = self._shader or pixel_shader()
         left = [textures.upload(until) for textures in self._textures]
         whole = [n for n, textures in enumerate(self._textures) if not textures.missing]
         del self._textures[: max(whole, default=0)]
         for textures in self._textures:
-            textures.draw(self._shader, width, height)
+            textures.draw(width, height)
         return any(left)
 
 
@@ -103,10 +103,11 @@ class Textures:
                 return number < len(done)
         return False
 
-    def draw(self, shader: GPUShader, width: int, height: int) -> None:
+    def draw(self, width: int, height: int) -> None:
         """Draw the layers over a region of this size."""
         from gpu_extras.batch import batch_for_shader
 
+        shader = pixel_shader()
         left, bottom, across, up = np.multiply(self._place, (width, height) * 2)
         for row, texture in self._bands:
             w = texture.width

@@ -11,29 +11,24 @@ from dataclasses import replace
 from typing import Any
 
 import bpy
-from bpy.types import SpaceView3D, ViewLayer
+from bpy.types import Depsgraph, SpaceView3D, ViewLayer
 
-from ...arrays import Colors
 from ...causes.case import Case
-from ...manifest import Manifest
-from ...pictures.certificate import CameraCertificate
+from ...pictures.colors_file import owners_of
 from ...pictures.picture import Picture
 from ...pictures.sampling import Sampling
 from ...pictures.source import Source
 from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
 from ..drawing.camera_object import add_camera
-from ..drawing.drawings import Plan
-from ..drawing.picture import picture
+from ..drawing.drawings import Drawing, Plan, turns
 from ..drawing.rasteriser import snapping_of
-from ..drawing.stand_ins import stand_ins
 from ..drawing.viewport import VIEWPORT
 from ..evaluating import evaluated
 from ..reading.camera import certify_camera
 from ..reading.export import NO_SURFACE, export
 from ..reading.visible import in_view, types_left_out
 from ..temporary import drawn, leave_out, made_for
-from ..turns import Turns
 
 AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
 
@@ -56,33 +51,28 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     window, shown = _view_of(space)
     layer = window.view_layer
     snapping = snapping_of(VIEWPORT)  # its drawing is the first, which may differ from the others
-    with Plan(window.scene, layer.name, VIEWPORT).prepared() as (tmp, _):
+    plan = Plan(window.scene, layer.name, VIEWPORT)
+
+    def export_view(_: Any, used: dict[str, Any], depsgraph: Depsgraph) -> Drawing:
+        exported, manifest = export(depsgraph)
+        traced = replace(scene, background=exported.background)
+        manifest = replace(manifest, owners=owners_of(scene))
+        return Drawing(plan, traced, manifest, used, certify_camera(depsgraph, scene.camera))
+
+    with plan.prepared() as (tmp, used):
         _leave_out_unseen(tmp, layer, shown)
         tmp.render.use_border = False  # it is of the camera's picture, not of this one
         looking = made_for(tmp, add_camera(tmp, _from_before(scene.camera)))
         made_for(tmp, looking.data)
-        work = _turns(tmp, scene)
-        traced, manifest, certificate, pixels = evaluated(tmp, VIEWPORT, work)
+        drawing, pixels, _ = evaluated(tmp, VIEWPORT, turns(tmp, used, export_view))
+    certificate = drawing.certificate
     drawn_picture = Picture(
         pixels,
         Source(VIEWPORT.name, bpy.app.version_string),
         # Blender stores the view's own camera rounded again: its samples lie so far off.
         sampling=Sampling(certificate.largest if certificate else 0.0, snapping=snapping),
     )
-    return Case(traced, manifest, settings, drawn_picture, certificate)
-
-
-def _turns(
-    tmp: bpy.types.Scene, scene: Scene
-) -> Turns[tuple[Scene, Manifest, CameraCertificate | None, Colors]]:
-    """Draw a view's scene, and return it as it is to be compared, with what is known of it."""
-    depsgraph = yield False
-    exported, manifest = export(depsgraph)
-    certificate = certify_camera(depsgraph, scene.camera)
-    planes = [scene.objects[p.object] for p in scene.planes]
-    traced = replace(stand_ins(tmp, scene, planes), background=exported.background)
-    pixels = yield from picture(tmp, VIEWPORT, scene.camera, depsgraph)
-    return traced, manifest, certificate, pixels
+    return Case(drawing.exported, drawing.manifest, settings, drawn_picture, certificate)
 
 
 def _view_of(space: int) -> tuple[Any, Any]:

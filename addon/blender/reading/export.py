@@ -33,12 +33,15 @@ NO_SURFACE = (*NOT_DRAWN, "EMPTY")
 
 
 def export(
-    depsgraph: Depsgraph, known: dict[Any, Read | None] | None = None
+    depsgraph: Depsgraph,
+    known: dict[Any, Read | None] | None = None,
+    slots: str = "material_index",
 ) -> tuple[Scene, Manifest]:
     """Return what the tracer is to see of an evaluated depsgraph, and what the manifest says of it.
 
     The depsgraph's mode decides on visibility and modifier levels. What is `known` of its meshes is
-    not read again, and the others are added: a mesh in Edit Mode can be read once alone.
+    not read again, and the others are added: a mesh in Edit Mode can be read once alone. `slots` is
+    the attribute of faces that takes the place of the material's slot.
 
     Raises
     ------
@@ -48,7 +51,8 @@ def export(
     scene = depsgraph.scene_eval
     camera = export_camera(scene)
     hiding = HIDDEN_FACES not in (ignored_features(depsgraph.scene) or ())
-    read = partial(read_mesh, viewport=depsgraph.mode == "VIEWPORT", hiding=hiding)
+    viewport = depsgraph.mode == "VIEWPORT"
+    read = partial(read_mesh, viewport=viewport, hiding=hiding, slots=slots)
     if known is not None:
         read = partial(_read_once, known, read)
     seen, shown, meshes = visible(depsgraph, scene.display.shading, read)
@@ -143,9 +147,9 @@ def _outside(camera: Camera, shown: list[Shown], meshes: dict[int, Read]) -> set
     }
     if not whole:
         return set()
-    bounds = np.array([mesh.bounds for mesh in whole.values()])
-    matrices = np.array([shown[n].matrix for n in whole])
-    out = outside(camera, bounds[:, 0], bounds[:, 1], matrices)
+    bounds = np.stack([mesh.bounds for mesh in whole.values()], axis=-1)
+    matrices = np.stack([shown[n].matrix for n in whole], axis=-1)
+    out = outside(camera, bounds, matrices)
     return {n for n, is_out in zip(whole, out, strict=True) if is_out}
 
 

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from bpy.types import Image, Scene
 
-from ...arrays import by_runs
+from ...arrays import Colors, by_runs
 from ...files.exr import MissingLibraryError
 from ...files.images import EIGHT_BITS, PictureFile, StoredPicture, decoded, open_picture
 from ...scene import SceneError
@@ -51,15 +51,21 @@ class Held(PictureFile):
 
     def read(self) -> StoredPicture:
         """Read the pixels: floats are linear, bytes have sRGB's curve and a straight alpha."""
-        image: Any = self.image
-        pixels = np.empty(self.height * self.width * 4, np.float32)
-        image.pixels.foreach_get(pixels)
-        color = pixels.reshape(self.height, self.width, 4)
+        image = self.image
+        color = pixels_of(image)
         opaque = image.channels < 4 or image.alpha_mode == "NONE"
         if image.is_float:
             return StoredPicture(color, 0, opaque, self.remarks, self.engine)
         color = by_runs(lambda some: decoded(some).astype(np.float32), color.reshape(-1, 4))
         return StoredPicture(color.reshape(self.height, self.width, 4), EIGHT_BITS, opaque)
+
+
+def pixels_of(image: Any) -> Colors:
+    """Return what Blender holds of an image, (h, w, 4), row 0 below."""
+    width, height = image.size
+    pixels = np.empty((height, width, 4), np.float32)
+    image.pixels.foreach_get(pixels.reshape(-1))
+    return pixels
 
 
 def image_file(image: Image) -> PictureFile:

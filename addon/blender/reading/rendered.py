@@ -18,7 +18,8 @@ _engines: dict[tuple[int, int], str] = {}
 
 
 @bpy.app.handlers.persistent
-def _begins(scene: Scene, *_: Any) -> None:
+def begins(scene: Scene, *_: Any) -> None:
+    """Remember a render that begins: one that is cancelled leaves a result, too."""
     if is_temporary(scene):
         return
     slot = _slot()
@@ -49,14 +50,3 @@ def engine_of_result(scene: Scene) -> str:
 def forget() -> None:
     """Forget all engines, as when another file is opened."""
     _engines.clear()
-
-
-def register() -> None:
-    """Hear of each render that begins: one that is cancelled leaves a result, too."""
-    bpy.app.handlers.render_init.append(_begins)
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    bpy.app.handlers.render_init.remove(_begins)
-    forget()

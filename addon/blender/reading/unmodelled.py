@@ -14,6 +14,7 @@ from mathutils import Matrix
 
 from ...arrays import Floats
 from ...manifest import Effect, Unmodelled
+from ...tracer.vector import transform_points
 from ..temporary import ignored_features, is_temporary
 from ..versions import COMPOSITOR, STRIPS, radii
 from .colors import slot_materials
@@ -40,9 +41,9 @@ def is_hair(settings: ParticleSettings) -> bool:
 
 def world_bounds(obj: Object, matrix: Matrix) -> Floats:
     """Return the box (2, 3) in world space, metres, around an evaluated object's own box."""
-    corners = np.array([(*c, 1.0) for c in obj.bound_box]) @ np.array(matrix, float).T
+    corners = transform_points(np.array(matrix), np.array(obj.bound_box).T)
     reach = max(_reaches(obj), default=0.0)
-    return np.stack((corners[:, :3].min(axis=0) - reach, corners[:, :3].max(axis=0) + reach))
+    return np.stack((corners.min(axis=1) - reach, corners.max(axis=1) + reach))
 
 
 def _reaches(obj: Object) -> Iterator[float]:

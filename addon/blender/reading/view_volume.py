@@ -9,100 +9,51 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, Plane, ViewWindow
-from ...tracer.camera import dual_axes, pixel_size
+from ...scene import Camera, Plane, Region, ViewWindow
+from ...tracer.camera import camera_rays
+from ...tracer.candidates import pixel_bounds
+from ...tracer.world import box_corners
 
 BEYOND = 2  # pixels beyond the picture: a comparison looks half a pixel beside a pixel's centre
 MARGIN = 0.01  # of the clip range's ends, so that Blender's own clipping decides, in float32
 
-# Of the sum of a distance's terms: 16 roundings of float32, in which a scene may be traced.
-_SLACK = 2.0**-20
 
-
-def volume_corners(camera: Camera) -> Floats:
+def _corners(camera: Camera) -> Floats:
     """Return the eight corners of the view volume, (8, 3) world space; bits: x, y, depth."""
-    camera = _linear(camera)
-    w = _window(camera)
-    out = []
-    for depth, y, x in product(_depths(camera), (w.bottom, w.top), (w.left, w.right)):
-        across = camera.projection.scale(depth) * (x * camera.right + y * camera.up)
-        out.append(camera.origin + across + depth * camera.forward)
-    return np.array(out)
+    if not camera.projection.is_linear:  # of a panorama a box that holds what it sees
+        end = camera.clip_end
+        window = ViewWindow(-end, end, -end, end)
+        camera = replace(camera, projection=ORTHOGRAPHIC, window=window, clip_start=-end)
+    across, up = ((-BEYOND, size + BEYOND) for size in (camera.width, camera.height))
+    y, x = np.array([*product(up, across)], np.float64).T
+    rays = camera_rays(camera, x, y)
+    return np.concatenate([rays.at(depth).T for depth in _depths(camera)])
 
 
-def outside(
-    camera: Camera,
-    low: Floats,
-    high: Floats,
-    world_from_object: Floats,
-) -> Bools:
-    """Return which of k boxes lie wholly beyond one of the view volume's six sides, (k,).
+def outside(camera: Camera, bounds: Floats, world_from_object: Floats) -> Bools:
+    """Return which of k boxes no ray near a pixel of the camera's whole picture meets, (k,).
 
-    A box that lies beyond an edge or a corner of the volume, but beyond no side, is not found. A
-    box that is not finite is never outside.
+    What has a box that is not finite is never outside. What is, is so for rays in float32, too.
 
     Parameters
     ----------
-    low, high : (k, 3)
-        Corners of each box in its object's space.
-    world_from_object : (k, 4, 4) float64
+    bounds : (2, 3, k)
+        The lowest and the highest corner of each box, in its object's space.
+    world_from_object : (4, 4, k) float64
     """
-    found = np.zeros(len(low), bool)
-    with np.errstate(over="ignore", invalid="ignore"):  # then nothing is outside
-        low = np.asarray(low, np.float64)
-        high = np.asarray(high, np.float64)
-        center = low / 2 + high / 2
-        half = high / 2 - low / 2
-        farthest = np.abs(center) + half
-        for normal, offset in zip(*_sides(camera), strict=True):
-            # The side in each object's space: its height over a point, and the sum of its terms.
-            terms = normal * camera.origin
-            side = np.append(normal, offset - terms.sum()) @ world_from_object
-            size_of_side = np.append(np.abs(normal), abs(offset) + np.abs(terms).sum())
-            size = size_of_side @ np.abs(world_from_object)
-            most = (side[:, :3] * center + np.abs(side[:, :3]) * half).sum(axis=1) + side[:, 3]
-            most_size = (size[:, :3] * farthest).sum(axis=1) + size[:, 3]
-            found |= most < -_SLACK * most_size
-    return found
-
-
-def _linear(camera: Camera) -> Camera:
-    """Return a camera with a flat-sided view volume that holds this one's: of a panorama a box."""
-    if camera.projection.is_linear:
-        return camera
-    end = camera.clip_end
-    window = ViewWindow(-end, end, -end, end)
-    return replace(camera, projection=ORTHOGRAPHIC, window=window, clip_start=-end)
-
-
-def _window(camera: Camera) -> ViewWindow:
-    w = camera.window
-    x, y = pixel_size(camera)
-    return ViewWindow(
-        w.left - BEYOND * x, w.right + BEYOND * x, w.bottom - BEYOND * y, w.top + BEYOND * y
-    )
-
-
-def _depths(camera: Camera) -> tuple[float, float]:
-    start = camera.clip_start
-    end = camera.clip_end
-    return start - MARGIN * abs(start), end + MARGIN * abs(end)
-
-
-def _sides(camera: Camera) -> tuple[Floats, Floats]:
-    """Return normals (6, 3) and offsets (6,): n . (p - origin) + offset >= 0 within a side."""
-    camera = _linear(camera)
-    # The axes need not be orthonormal: a point's coordinates are its products with their dual.
-    x, y, depth = dual_axes(camera)
-    w = _window(camera)
-    edges = np.array((w.left, -w.right, w.bottom, -w.top))
-    across = np.stack((x, -x, y, -y))
     start, end = _depths(camera)
-    if camera.projection.shares_direction:
-        offsets = -edges
-    else:
-        across, offsets = across - edges[:, None] * depth, np.zeros(4)
-    return np.stack((*across, depth, -depth)), np.array((*offsets, -start, end))
+    whole = Region(0, 0, camera.width, camera.height)
+    looking = replace(camera, clip_start=start, clip_end=end, region=whole)
+    with np.errstate(over="ignore"):
+        corners = box_corners(bounds, world_from_object).astype(np.float32)
+    x0, x1, y0, y1 = pixel_bounds(looking, corners, BEYOND + 0.5)
+    return (x0 >= x1) | (y0 >= y1)
+
+
+def _depths(camera: Camera) -> Floats:
+    """Return where the view volume begins and ends, (2,) metres."""
+    ends = np.array((camera.clip_start, camera.clip_end))
+    return ends + (-MARGIN, MARGIN) * np.abs(ends)
 
 
 def polygon(camera: Camera, plane: Plane) -> Floats:
@@ -111,7 +62,7 @@ def polygon(camera: Camera, plane: Plane) -> Floats:
     k is at most 6, and 0 where the plane misses the volume. The volume is somewhat larger than what
     is seen, so that the polygon's rim never is.
     """
-    corners = volume_corners(camera)
+    corners = _corners(camera)
     height = ((corners - plane.point) * plane.normal).sum(axis=1)
     points = []
     for a in range(8):

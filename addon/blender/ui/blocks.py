@@ -1,7 +1,7 @@
 """Shows pictures and texts in data-blocks of Blender's: ours, which no file and no undo step has.
 
 Blender stores no data-block that is marked as runtime data. A picture is packed, so nothing in it
-has to be saved. Undo takes them away, and they are put back from files of the session's.
+has to be saved. Undo takes them away, and they are made again.
 """
 
 from __future__ import annotations
@@ -26,43 +26,35 @@ PICTURES = TRACED, BLENDER, DIFFERENCE, CAUSES, PUT_RIGHT
 MARK = "reference_tracer_result"  # a custom property of our images and texts: their name
 _SHOWN_AS = {"IMAGE_EDITOR": "image", "TEXT_EDITOR": "text"}  # by the type of an area
 
-_files: dict[str, tuple[str, str]] = {}  # of our images, with their colour spaces, and texts
-_made: dict[str, int] = {}  # from these: the latest one's `session_uid`
+_content: dict[str, Colors | str] = {}  # of our images and texts
+_made: dict[str, int] = {}  # of these: the latest one's `session_uid`
 _seen: list[tuple[Any, str]] = []  # areas, and the name of ours that each shows
 
 
 def show(name: str, color: Colors) -> Image:
     """Show linear RGBA (h, w, 4) as our image of this name, in place of the one that there is."""
-    import numpy as np
-
-    height, width = color.shape[:2]
-    image: Any = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
-    linear = image.colorspace_settings.name
-    image.colorspace_settings.is_data = True  # it is written as it is
-    image.alpha_mode = "CHANNEL_PACKED"
-    image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
-    image.filepath_raw = str(Path(bpy.app.tempdir, f"{name}.exr"))
-    image.file_format = "OPEN_EXR"
-    image.save()
-    _files[name] = image.filepath_raw, linear
-    bpy.data.images.remove(image)
     remember_editors()
-    shown = _loaded(name)
+    _content[name] = color
+    shown = _make(name)
     _fill_editors()
     return shown
 
 
-def _loaded(name: str) -> Any:
-    """Load our image or text from its file, in place of the one that there is."""
-    path, linear = _files[name]
+def _make(name: str) -> Any:
+    """Make our image or text, in place of the one that there is."""
+    import numpy as np
+
+    content = _content[name]
     block: Any
-    if linear:
-        block = bpy.data.images.load(path)
-        block.colorspace_settings.name = linear
-        block.pack()
-        block.filepath_raw = ""  # so Save As proposes the folder of the .blend, not the session's
+    if isinstance(content, str):
+        block = bpy.data.texts.new(name)
+        block.from_string(content)
     else:
-        block = bpy.data.texts.load(path, internal=True)
+        height, width = content.shape[:2]
+        block = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+        block.alpha_mode = "CHANNEL_PACKED"
+        block.pixels.foreach_set(np.ascontiguousarray(content, dtype=np.float32).ravel())
+        block.pack()
     _give_up(name, block)
     block.name = name
     block[MARK] = name
@@ -74,13 +66,13 @@ def _loaded(name: str) -> Any:
 def remove(name: str) -> None:
     """Remove our image or text of a name, if there is one."""
     _give_up(name)
-    _files.pop(name, None)
+    _content.pop(name, None)
 
 
 def _give_up(name: str, successor: Any = None) -> None:
     """Remove a block of ours, and give its users another; one that was saved to a file stays."""
     old = ours(name)
-    if old and old.filepath and _file(old.filepath) != _file(_files[name][0]):
+    if old and old.filepath:
         del old[MARK]
         old.is_runtime_data = False
         old.name = Path(old.filepath).name
@@ -90,26 +82,19 @@ def _give_up(name: str, successor: Any = None) -> None:
         _blocks(name).remove(old)
 
 
-def _file(path: str) -> Path:
-    return Path(bpy.path.abspath(path)).resolve()
-
-
 def ours(name: str) -> Any:
     """Return our image or text of a name, or None."""
     return next((b for b in _blocks(name) if b.get(MARK) == name and b.is_runtime_data), None)
 
 
 def _blocks(name: str) -> Any:
-    _path, linear = _files.get(name, ("", ""))
-    return bpy.data.images if linear else bpy.data.texts
+    return bpy.data.images if name in PICTURES else bpy.data.texts
 
 
 def show_text(name: str, content: str) -> Text:
     """Put a text into our text of this name, and show it in a text editor."""
-    path = Path(bpy.app.tempdir, f"{name}.md")
-    path.write_text(content, encoding="utf-8")
-    _files[name] = str(path), ""
-    text = _loaded(name)
+    _content[name] = content
+    text: Text = _make(name)
     for _, area in list(areas("TEXT_EDITOR"))[:1]:
         area.spaces.active.text = text
         area.spaces.active.top = 0
@@ -128,11 +113,11 @@ def remember_editors(*_: Any) -> None:
 
 @bpy.app.handlers.persistent
 def put_back(*_: Any) -> None:
-    """Load again what undo removed, or replaced by an older one."""
-    for name in _files:
+    """Make again what undo removed, or replaced by an older one."""
+    for name in _content:
         block = ours(name)
         if block is None or block.session_uid != _made[name]:
-            _loaded(name)
+            _make(name)
     _fill_editors()
 
 
@@ -143,5 +128,5 @@ def _fill_editors() -> None:
 
 def remove_all() -> None:
     """Remove all of ours."""
-    for name in tuple(_files):
+    for name in tuple(_content):
         remove(name)

@@ -101,12 +101,17 @@ class LongWork(Mixin):
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""
-        from ..paths import made_folder
+        from ...report import folders
+        from ..paths import absolute
 
         directory = self.directory or default_folder(self.bl_idname.rpartition("_OT_")[2])
         if directory and not self.directory:
             say(f"Results go to {directory}")
-        return made_folder(directory) if directory else None
+        if not directory:
+            return None
+        folder = absolute(directory)
+        folders.make(folder)
+        return folder
 
     def begin(self, context: Context) -> Work[Any]:
         """Return the work; what has to be done in one go is done here."""

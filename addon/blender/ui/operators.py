@@ -36,7 +36,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         """Have Blender draw the scene, and compare."""
         from ..jobs.compare import compare_open_file
 
-        comparison = yield from compare_open_file(context, str(self.folder() or ""))
+        comparison = yield from compare_open_file(context, self.folder())
         yield Found(comparison)
         return comparison
 
@@ -75,7 +75,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         """Have every engine draw the scene at once; return the work that is left."""
         from ..jobs.engines import compare_all
 
-        return compare_all(context, str(self.folder() or ""))
+        return compare_all(context, self.folder())
 
     def finish(self, context: Context, result: Any) -> tuple[str, str]:
         from ...comparison import engines
@@ -111,7 +111,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
 
         self._folder = self.folder() or results.session_folder() / "animation"
         self._frames = animation.frames_of(context.scene)
-        return animation.compare_frames(str(self._folder), self._frames)
+        return animation.compare_frames(self._folder, self._frames)
 
     def show(self, context: Context, result: Any) -> Work[None]:
         """Keep the rows of the frames so far."""

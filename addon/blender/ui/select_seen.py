@@ -9,7 +9,6 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty
 
 from ...tracer.progress import Work
-from ...wording import say
 from .long_work import LongWork, named
 
 NAME = "camera_sees"
@@ -53,40 +52,40 @@ class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         from ..jobs.animation import frames_of
-        from ..jobs.seen import CameraSees
+        from ..jobs.faces import check_free
+        from ..jobs.seen import look
 
-        edited = context.mode == "EDIT_MESH"
-        objects = context.objects_in_mode if edited else context.view_layer.objects
-        faces = edited or self.attribute
-        own = {o.data for o in objects if faces and o.type == "MESH" and not o.data.library}
-        return CameraSees(context, own).look(frames_of(context.scene) if self.frames else ())
+        objects = context.objects_in_mode
+        if context.mode == "OBJECT":
+            objects = context.view_layer.objects if self.attribute else ()
+        meshes = {o.data for o in objects if o.type == "MESH"}
+        for mesh in meshes if self.attribute else ():
+            check_free(mesh, NAME)
+        return look(context, meshes, frames_of(context.scene) if self.frames else ())
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Select, store the attribute, and say what is seen."""
-        from ...visible import HIDDEN, SEEN, UNDECIDED
-        from ..jobs.faces import select_faces, store
-        from ..jobs.seen import RANKS
+        from collections import Counter
 
-        wanted = int(RANKS[HIDDEN if self.hidden else SEEN])
-        if self.attribute:
-            for mesh, ranks in result.faces.items():
-                store(mesh, NAME, RANKS[ranks])
-        if context.mode == "EDIT_MESH":
-            context.tool_settings.mesh_select_mode = (False, False, True)
-            every = []
-            for mesh, ranks in result.faces.items():
-                select_faces(mesh, ranks == wanted)
-                every += ranks.tolist()
-            said = rpt_("{} faces seen, {} hidden, {} undecided")
-        else:
+        from ..jobs.faces import select_faces, store
+        from ..jobs.seen import HIDDEN, MAY_BE, SEEN, STATES
+
+        wanted = HIDDEN if self.hidden else SEEN
+        for mesh, ranks in result.faces.items() if self.attribute else ():
+            store(mesh, NAME, STATES[ranks])
+        if context.mode == "OBJECT":
+            said = rpt_("{} objects seen, {} hidden, {} undecided")
+            count = Counter(result.objects.values())
             for obj in context.view_layer.objects:
                 obj.select_set(result.objects.get(obj.name_full) == wanted)
-            every = [*result.objects.values()]
-            said = rpt_("{} objects seen, {} hidden, {} undecided")
-        say(*result.notes)
-        counts = (every.count(RANKS[state]) for state in (SEEN, HIDDEN, UNDECIDED))
-        text = "; ".join([said.format(*counts), *result.notes])
-        return "WARNING" if result.notes else "INFO", text
+        else:
+            said = rpt_("{} faces seen, {} hidden, {} undecided")
+            count = Counter(rank for ranks in result.faces.values() for rank in ranks.tolist())
+            bpy.ops.mesh.select_mode(type="FACE")
+            for mesh, ranks in result.faces.items():
+                select_faces(mesh, ranks == wanted)
+        text = said.format(count[SEEN], count[HIDDEN], count[MAY_BE])
+        return "WARNING" if result.notes else "INFO", "; ".join((text, *result.notes))
 
 
 class REFERENCE_TRACER_MT_select_seen(bpy.types.Menu):

@@ -8,13 +8,11 @@ something is drawn: a server has no display.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 from typing import Any, NamedTuple
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.types import Context, Event, Image, Region
-from gpu.types import GPUShader
 
 from ..drawing.judges import label_of
 from . import blocks, results
@@ -36,13 +34,6 @@ void main() {
   color = vec4(c.rgb + 0.03 * (1.0 - c.a), 1.0);
 }
 """
-
-
-@cache
-def _shader() -> GPUShader:
-    from ..live.layers import pixel_shader
-
-    return pixel_shader(_SHOWN)
 
 
 class Place(NamedTuple):
@@ -72,11 +63,13 @@ def _draw_side(image: Image, at: Place, left: float, right: float) -> None:
     import gpu
     from gpu_extras.batch import batch_for_shader
 
+    from ..live.layers import pixel_shader
+
     texture = gpu.texture.from_image(image)  # which Blender may have scaled down
     across = texture.width / (at.right - at.left)
     pos = [(x, y) for y in (at.bottom, at.top) for x in (left, right)]
     texel = [(across * (x - at.left), y) for y in (0, texture.height) for x in (left, right)]
-    shader = _shader()
+    shader = pixel_shader(_SHOWN)
     batch = batch_for_shader(shader, "TRI_STRIP", {"pos": pos, "at": texel})
     shader.uniform_sampler("image", texture)
     batch.draw(shader)

@@ -28,8 +28,8 @@ from .vertices import Vertices
 
 _EPS = 2.0**-52
 _TINY = 2.0**-960  # added to a vertex's size: more than gradual underflow may lose
-DELTA = 2.0**-25  # pixels: the most that a `certain` film position is off
-_HUGE = 2.0**900  # metres: nothing over- or underflows for certain vertices of a smaller size
+DELTA = 2.0**-25  # pixels: far above what dividing by w moves a film position
+_HUGE = 2.0**900  # metres: nothing overflows of what is of a smaller size
 _OFF = 2  # pixels beyond the picture to which boxes are clipped
 
 
@@ -143,23 +143,6 @@ class Film:
         before = np.maximum(depth - self.weight * size, self.camera.clip_start)
         return (1 + 2.0**-48 + 2 * self.ray_error) / before
 
-    def certain_nearness(self, depth: Floats) -> Floats:
-        """Return the nearness of `certain` vertices, (n,)."""
-        return -depth if self.camera.projection.shares_direction else 1 / depth
-
-    def certain_error(self, nearness: Floats) -> Floats | float:
-        """Bound the error of the nearness of `certain` vertices that are at most this near.
-
-        For certain vertices, `weight` size / w is at most DELTA / 4 / the picture's size in pixels;
-        for parallel rays, the slope of `place` times size is at most DELTA / 2.
-        """
-        if self.camera.projection.shares_direction:
-            constant, slope = self.depth_error
-            return constant + slope * (DELTA / self.place[1])
-        return (
-            DELTA / max(self.camera.width, self.camera.height) + 2 * self.ray_error + 2.0**-50
-        ) * nearness
-
     def enter(self, vertices: Vertices, first: int, world: Vectors) -> None:
         """Project world points (3, n) into the n vertices from `first` on."""
         part = slice(first, first + world.shape[1])
@@ -195,9 +178,6 @@ class Film:
         far = 2 * max(camera.width, camera.height)
         margin += far * self.weight * size
         margin = 1.01 * (margin / w)
-        # The other half of DELTA is for the rounding of the division.
-        certain = np.less_equal(margin, 0.5 * DELTA, out=vertices.certain[part])
-        certain &= vertices.ahead[part] & (largest(np.abs(x), np.abs(y)) <= far) & (size < _HUGE)
         margin += 0.5
         for axis, (at, end) in enumerate(((x, camera.width), (y, camera.height))):
             vertices.ahead[part] &= np.isfinite(at)

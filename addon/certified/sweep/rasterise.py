@@ -21,7 +21,7 @@ from ...tracer.vector import Arrays, gather, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .edge_functions import EdgeFunctions
 
-_BOXES = 1 << 8  # boxes evaluated together
+_VALUES = 1 << 15  # pixels of boxes evaluated together
 _CELLS = 1 << 14  # cells tested together
 
 
@@ -59,10 +59,11 @@ class Covered(Arrays):
 
 def rasterised(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Iterator[Covered]:
     """Yield the pairs of boxes that are no larger than a FINE cell."""
-    # Sorted, so that boxes that are evaluated together are of about one size.
-    boxes = boxes.take(np.argsort(boxes.size, kind="stable"))
-    for part in parts(len(boxes), _BOXES):
-        yield _block(found, boxes.take(part), depths)
+    size = boxes.size
+    for longest in np.unique(size).tolist():  # boxes that are evaluated together are of one size
+        own = np.flatnonzero(size == longest)
+        for part in parts(len(own), max(1, _VALUES // (longest + 1) ** 2)):
+            yield _block(found, boxes.take(own[part]), depths)
 
 
 def _block(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Covered:

@@ -28,11 +28,10 @@ from .edge_functions import EdgeFunctions, set_up
 from .film import Film
 from .rasterise import Boxes, Covered, rasterised, split
 from .resolve import Resolver
-from .small_boxes import are_small, small_pairs
 from .small_triangles import SmallTriangles
 
 _TRIANGLES = 1 << 17  # triangles tested against the depth buffer together
-_SET_UP = 1 << 13  # large triangles set up together: they stay in a core's cache
+_SET_UP = 1 << 14  # triangles set up together
 _FRAGMENTS = 1 << 10  # fragments for which there is always room
 _PIXELS = 1 << 15  # pixels of a plane at a time
 _PAIRS = 1 << 15  # pairs entered into the depth buffer together
@@ -179,23 +178,15 @@ class Sweep:
                 yield from self._enter_triangles(boxed, depth_bin[part])
 
     def _enter_triangles(self, boxed: Boxed, some: Index) -> Work[None]:
-        """Sweep some triangles of a chunk: the small ones first."""
+        """Sweep those of some triangles of a chunk that the depth buffer does not hide."""
         low, high = boxed.in_region(some)
         some = gather(some, self.not_hidden(low, high, gather(boxed.nearest, some)))
-        small = are_small(self._film, boxed.expanded, boxed.low, boxed.high, some)
         yield None
-        own = gather(some, np.flatnonzero(small))
-        boxes = Boxes(own, gather(boxed.low, own), gather(boxed.high, own))
-        left = [some[~small]]
-        for pairs in small_pairs(self._film, boxed.expanded, boxes, self._depths, left):
-            self._keep(self.of_pairs(pairs, boxed.first + pairs.owner))
-            yield None
-        rest = np.concatenate(left)
-        for part in parts(len(rest), _SET_UP):
-            yield from self._enter_large(boxed, rest[part])
+        for part in parts(len(some), _SET_UP):
+            yield from self._enter_functions(boxed, some[part])
 
-    def _enter_large(self, boxed: Boxed, some: Index) -> Work[None]:
-        """Sweep some triangles that are not small, or nearly edge-on."""
+    def _enter_functions(self, boxed: Boxed, some: Index) -> Work[None]:
+        """Set up some triangles, and sweep the pixels that they may cover."""
         expanded = boxed.expanded
         origin = gather(boxed.low, some)
         reach = np.maximum(*(gather(boxed.high, some) - origin)) + 1.0

@@ -16,9 +16,8 @@ class Vertices:
     `box` (v, 4) is lowest x, lowest y, -highest x, -highest y of the pixels whose centres a
     triangle may cover at this vertex. The minimum over its three corners is a triangle's box. It
     holds only where `ahead`: where the vertex surely is in front of the eye. `x`, `y` (v,) is the
-    film position. It is off by at most DELTA where `certain`; then the vertex is ahead, too.
-    `nearest` (v,) bounds the nearness (`edge_functions.py`) of the vertex from above. `finite` (v,)
-    says whether the vertex is finite in world space.
+    film position. `nearest` (v,) bounds the nearness (`edge_functions.py`) of the vertex from
+    above. `finite` (v,) says whether the vertex is finite in world space.
     """
 
     box: Index
@@ -31,11 +30,10 @@ class Vertices:
     size: Floats
     nearest: Floats
     ahead: Bools
-    certain: Bools
     finite: Bools
 
     @classmethod
     def empty(cls, count: int, dtype: type[np.integer]) -> Vertices:
         """Return arrays for this many vertices, to be filled; boxes are of this dtype."""
-        numbers, flags = np.empty((8, count)), np.empty((3, count), bool)
+        numbers, flags = np.empty((8, count)), np.empty((2, count), bool)
         return cls(np.empty((count, 4), dtype), *numbers, *flags)

@@ -92,7 +92,6 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
 
         stored = blender.context.scene.reference_tracer.settings()
         judge = options.judge.upper() if options.judge else None
-        out = str(options.out)
         chosen: dict[str, Any] = {
             "settings": options.settings.over(stored),
             "as_is": options.as_is or None,
@@ -111,11 +110,11 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         layer = blender.context.view_layer
         if options.judge == "all":
             with evaluating(layer, "and draw the scene"):
-                work_of_all = compare_all(blender.context, out, **chosen)
+                work_of_all = compare_all(blender.context, options.out, **chosen)
             return _told_engines(options, result_of(work_of_all, progress))
         studies = options.trade, options.extremes
         with evaluating(layer, "and draw the scene"):
-            work = compare_open_file(blender.context, out, *studies, judge=judge, **chosen)
+            work = compare_open_file(blender.context, options.out, *studies, judge=judge, **chosen)
         return _told_comparison(options, result_of(work, progress))
 
 
@@ -135,7 +134,7 @@ def _frames(
     bake_bodies(scene, frames[-1])
 
     made_by = depends_on(options.of_a_frame())
-    work = compare_frames(str(options.out), frames, made_by, views, **chosen)
+    work = compare_frames(options.out, frames, made_by, views, **chosen)
     try:
         rows = result_of(work, progress)
     except KeyboardInterrupt:

@@ -21,8 +21,8 @@ from ...tracer.camera import camera_rays, film_positions
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.shading import by_mesh
-from ...tracer.vector import Vectors, cross, gather
-from ...tracer.world import world_corners
+from ...tracer.vector import gather
+from ...tracer.world import planes_of
 
 _LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller
 _TOGETHER = 1 << 16  # pixels: some MiB of temporaries
@@ -111,7 +111,7 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: SeenSurfaces) -> NDArray[np.
     number = surfaces.number.ravel()
     formula = np.zeros(len(t))
     with np.errstate(all="ignore"):
-        points, normals = _planes_of(scene, surfaces)
+        points, normals = planes_of(scene, surfaces.instance, surfaces.triangle)
         for part in parts(len(t), _TOGETHER):
             pixel = part.start + np.flatnonzero(number[part])
             rays = camera_rays(scene.camera, *film_positions(scene.camera.region, pixel=pixel))
@@ -122,16 +122,3 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: SeenSurfaces) -> NDArray[np.
         offsets = t.view(np.int64) - formula.view(np.int64)
     offsets = np.where(np.isfinite(t), offsets, 0).reshape(frame.shape)
     return ((offsets << 1) ^ (offsets >> 63)).view(np.uint64)
-
-
-def _planes_of(scene: Scene, surfaces: SeenSurfaces) -> tuple[Vectors, Vectors]:
-    """Return a point and the textbook's normal of each surface's plane, (3, k) each."""
-    points, normals = np.zeros((2, 3, len(surfaces.instance)))
-    on_mesh = np.flatnonzero(surfaces.instance < len(scene.instances))
-    named = surfaces.instance[on_mesh], surfaces.triangle[on_mesh]
-    p1, p2, p3 = world_corners(scene, *named)
-    points[:, on_mesh], normals[:, on_mesh] = p1, cross(p3 - p1, p2 - p1)
-    for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
-        which = surfaces.instance == index
-        points[:, which], normals[:, which] = infinite.point[:, None], infinite.normal[:, None]
-    return points, normals

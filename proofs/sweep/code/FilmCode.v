@@ -200,31 +200,8 @@ Proof.
   rewrite Rmult_0_l, rnd_0. apply Rlt_0_1.
 Qed.
 
-(** ** [certain] *)
-Lemma n_certain : IZR 1 * bpow radix2 (-26) = bpow radix2 (-26). Proof. apply Rmult_1_l. Qed.
-Lemma n_huge : IZR 1 * bpow radix2 900 = bpow radix2 900. Proof. apply Rmult_1_l. Qed.
-Lemma and_iff a b P Q : (a = true <-> P) -> (b = true <-> Q) -> (a && b = true <-> P /\ Q).
-Proof. intros. rewrite andb_true_iff. tauto. Qed.
-Lemma less_eq_iff a b : Rle_bool a b = true <-> a <= b.
-Proof. split; [case Rle_bool_spec; [auto | discriminate] | apply Rle_bool_true]. Qed.
 Notation more := EdgeBounds.more. (* the float 1.01 *)
 Definition far_ := rnd (2 * Rmax ($"width") ($"height")).
-Theorem certain_code (wt := $"weight") : truth rnd v film_perspective_certain = true <->
-  margin_2 ($"c0") ($"c1") wt Z_ far_ more w_ <= bpow radix2 (-26) /\
-  (rnd (rnd (1024 * wt) * Z_) < w_ /\ Rmax (Rabs (rnd (p_ w_ / w_))) (Rabs (rnd (q_ w_ / w_))) <= far_) /\
-  Z_ < bpow radix2 900.
-Proof.
-  unfold film_perspective_certain. code. rewrite n_certain, n_huge.
-  repeat apply and_iff; first [apply less_iff | apply less_eq_iff].
-Qed.
-Theorem certain_code' : truth rnd v film_parallel_certain = true <->
-  margin_2 ($"c0") ($"c1") 0 Z_ far_ more 1 <= bpow radix2 (-26) /\
-  (rnd (0 * Z_) < 1 /\ Rmax (Rabs (rnd (p_ 1 / 1))) (Rabs (rnd (q_ 1 / 1))) <= far_) /\
-  Z_ < bpow radix2 900.
-Proof.
-  unfold film_parallel_certain. code. rewrite n_certain, n_huge.
-  repeat apply and_iff; first [apply less_iff | apply less_eq_iff].
-Qed.
 
 (** ** [nearest] *)
 Theorem nearest_code :

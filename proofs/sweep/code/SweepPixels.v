@@ -1,11 +1,11 @@
-(** What the sweep asks at a pixel, recorded, is what EdgeBounds.v, SmallBoxes.v and Cells.v speak of.
+(** What the sweep asks at a pixel, recorded, is what EdgeBounds.v and Cells.v speak of.
 
-    The code is `_block` and `_may_be_seen` of rasterise.py, small_boxes.py, depth_buffer.py and
+    The code is `_block` and `_may_be_seen` of rasterise.py, depth_buffer.py and
     `enter_planes` of sweep.py. What each recorded expression comes to, in real numbers with a rounding
     at every operation, is the formula of that name. *)
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core BinarySingleNaN.
-From Reftrace Require Import Geometry Trees RecordedPixels Rounding EdgeFunctions SmallBoxes SmallNearness.
+From Reftrace Require Import Geometry Trees RecordedPixels Rounding EdgeFunctions.
 From Reftrace Require Import Cells SweepCode.
 Open Scope R_scope.
 Open Scope string_scope.
@@ -63,93 +63,6 @@ Proof.
     by (unfold may_be_seen; cbn [value truth]; numbers; reflexivity).
   rewrite E, negb_orb, andb_true_iff, !negb_true_iff, <- !not_true_iff_false, !true_less. reflexivity.
 Qed.
-
-(** ** A small box *)
-
-Lemma num_E : IZR 2345391125639987 * bpow radix2 (-69) = E. Proof. reflexivity. Qed.
-Lemma num_minus_E : IZR (-2345391125639987) * bpow radix2 (-69) = - E.
-Proof.
-  unfold E. change (IZR (-2345391125639987)) with (- IZR 2345391125639987). ring.
-Qed.
-Lemma num_ET : IZR 7249389938113249 * bpow radix2 (-69) = 2 * ET.
-Proof.
-  unfold ET. change (-69)%Z with (1 + -70)%Z. rewrite bpow_plus. change (bpow radix2 1) with 2. ring.
-Qed.
-
-Definition x_m : R := rnd (var "x0" + / 2).
-Definition y_m : R := rnd (var "y0" + / 2).
-Definition small_a : vec := V (rnd (var "xa" - x_m)) (rnd (var "ya" - y_m)) 1.
-Definition small_b : vec := V (rnd (var "xb" - x_m)) (rnd (var "yb" - y_m)) 1.
-Definition small_c : vec := V (rnd (var "xc" - x_m)) (rnd (var "yc" - y_m)) 1.
-Definition small_s : R := sign_of (SmallBoxes.volume small_a small_b small_c).
-Definition small_amount : R := Rabs (SmallBoxes.volume small_a small_b small_c).
-Definition small_edges (up right : R) : R :=
-  Rmin (Rmin (SmallBoxes.small_edge small_s small_b small_c up right)
-    (SmallBoxes.small_edge small_s small_c small_a up right))
-    (SmallBoxes.small_edge small_s small_a small_b up right).
-Definition small_near (up right : R) : R :=
-  nearness small_amount (var "na") (var "nb") (var "nc")
-    (SmallBoxes.small_edge small_s small_c small_a up right)
-    (SmallBoxes.small_edge small_s small_a small_b up right).
-Definition small_off : R := nearness_error small_amount (var "na") (var "nb") (var "nc") (var "own").
-
-(** 1, with the sign of T. *)
-Lemma copied_sign x : (if Rlt_bool x 0 then - Rabs (IZR 1 * bpow radix2 0) else Rabs (IZR 1 * bpow radix2 0))
-  = sign_of x.
-Proof. rewrite num_1, Rabs_R1. reflexivity. Qed.
-
-Ltac small x := unfold x; cbn [value truth]; rewrite ?copied_sign; numbers; rewrite ?num_E, ?num_minus_E,
-  ?num_ET; cbv [small_edges small_near small_off nearness nearness_error scale SmallBoxes.small_edge
-    small_amount small_s SmallBoxes.volume SmallBoxes.of_1 small_a small_b small_c vx vy vz x_m y_m];
-  reflexivity.
-
-Theorem small_right :
-  fl v small_T = SmallBoxes.volume small_a small_b small_c /\
-  fl v RecordedPixels.small_edge = small_edges (var "up") (var "right") /\
-  (truth rnd v RecordedPixels.small_inside = true <-> small_edges (var "up") (var "right") >= - E) /\
-  fl v small_least = rnd (small_near (var "up") (var "right") - small_off) /\
-  fl v small_most = rnd (small_near (var "up") (var "right") + small_off) /\
-  (truth rnd v small_sure = true <-> small_edges (var "up") (var "right") > E).
-Proof.
-  assert (A : fl v RecordedPixels.small_edge = small_edges (var "up") (var "right")) by small RecordedPixels.small_edge.
-  split; [small small_T|]. split; [exact A|]. split; [|split; [small small_least|split; [small small_most|]]].
-  - change RecordedPixels.small_inside with (LessEq (Num (-2345391125639987) (-69)) RecordedPixels.small_edge).
-    cbn [truth]. rewrite true_less_eq, A. cbn [value]. rewrite num_minus_E. lra.
-  - change small_sure with (Less (Num 2345391125639987 (-69)) RecordedPixels.small_edge). cbn [truth].
-    rewrite true_less, A. cbn [value]. rewrite num_E. lra.
-Qed.
-
-(** The record's way through the code: what is nearly edge-on is left to others. *)
-Theorem small_path_right : truth rnd v small_path = true <-> small_amount > 2 * ET.
-Proof.
-  assert (X : truth rnd v small_path = negb (Rle_bool small_amount (2 * ET))) by small small_path.
-  rewrite X, negb_true_iff. case Rle_bool_spec; split; intros; try easy; lra.
-Qed.
-
-(** A box of one pixel: up and right are 0. *)
-Theorem small_one_right :
-  fl v small_one_T = SmallBoxes.volume small_a small_b small_c /\
-  fl v small_one_edge = small_edges 0 0 /\
-  (truth rnd v small_one_inside = true <-> small_edges 0 0 >= - E) /\
-  fl v small_one_least = rnd (small_near 0 0 - small_off) /\
-  fl v small_one_most = rnd (small_near 0 0 + small_off) /\
-  (truth rnd v small_one_sure = true <-> small_edges 0 0 > E).
-Proof.
-  assert (N : small_near 0 0 = nearness small_amount (var "na") (var "nb") (var "nc")
-      (rnd (SmallBoxes.of_1 small_c small_a * small_s)) (rnd (SmallBoxes.of_1 small_a small_b * small_s)))
-    by (unfold small_near; now rewrite !one_pixel).
-  assert (A : fl v small_one_edge = small_edges 0 0)
-    by (unfold small_edges; rewrite !one_pixel; small small_one_edge).
-  rewrite N. clear N.
-  split; [small small_one_T|]. split; [exact A|].
-  split; [|split; [small small_one_least|split; [small small_one_most|]]].
-  - change small_one_inside with (LessEq (Num (-2345391125639987) (-69)) small_one_edge).
-    cbn [truth]. rewrite true_less_eq, A. cbn [value]. rewrite num_minus_E. lra.
-  - change small_one_sure with (Less (Num 2345391125639987 (-69)) small_one_edge). cbn [truth].
-    rewrite true_less, A. cbn [value]. rewrite num_E. lra.
-Qed.
-Theorem small_one_path_right : truth rnd v small_one_path = true <-> small_amount > 2 * ET.
-Proof. exact small_path_right. Qed.
 
 (** ** The clip range, and planes *)
 

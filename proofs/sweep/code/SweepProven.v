@@ -5,8 +5,7 @@
     is [fit], here as there. All is as if there were no largest float: see EdgeBounds.v. *)
 Require Import ZArith Reals Psatz String Bool List.
 From Flocq Require Import Core BinarySingleNaN.
-From Reftrace Require Import Geometry Trees RecordedEdges RecordedPixels Rounding EdgeFunctions SmallBoxes
-  SmallNearness.
+From Reftrace Require Import Geometry Trees RecordedEdges RecordedPixels Rounding EdgeFunctions.
 From Reftrace Require Import NearnessCommon NearnessPerspective NearnessParallel.
 From Reftrace Require NearnessPixel NearnessDepths.
 From Reftrace Require Import Cells SweepCode SweepDoubt SweepPixels.
@@ -210,63 +209,6 @@ Proof.
     + exfalso. apply not_true_iff_false in M. apply M, may_be_seen_right.
       unfold most_in in *. split; apply Rle_not_lt; assumption.
 Qed.
-
-(** ** Small boxes *)
-
-Section Small.
-Variable v : renv.
-Notation a := (small_a v). Notation b := (small_b v). Notation c := (small_c v).
-Notation up := (r_var v "up"). Notation right := (r_var v "right").
-Variables a' b' c' : vec.
-Hypothesis Ca : corner a a'. Hypothesis Cb : corner b b'. Hypothesis Cc : corner c c'.
-Hypothesis f_up : is_float up. Hypothesis f_right : is_float right.
-Hypothesis in_up : Rabs up <= 16. Hypothesis in_right : Rabs right <= 16.
-Hypothesis not_left : truth rnd v small_path = true.
-Notation T := (det (flat a') (flat b') (flat c')).
-Notation e_bc := (det (flat b') (flat c') (pixel_ray up right)).
-Notation e_ca := (det (flat c') (flat a') (pixel_ray up right)).
-Notation e_ab := (det (flat a') (flat b') (pixel_ray up right)).
-
-Theorem recorded_small_inside : truth rnd v small_sure = true ->
-  T <> 0 /\ T * e_bc > 0 /\ T * e_ca > 0 /\ T * e_ab > 0.
-Proof.
-  intros S. apply (small_right v) in S. assert (P := proj1 (small_path_right v) not_left).
-  exact (SmallBoxes.small_inside a b c a' b' c' up right Ca Cb Cc f_up f_right in_up in_right P S).
-Qed.
-Theorem recorded_small_outside : truth rnd v RecordedPixels.small_inside = false ->
-  ~ (0 <= T * e_bc /\ 0 <= T * e_ca /\ 0 <= T * e_ab).
-Proof.
-  intros O. assert (P := proj1 (small_path_right v) not_left). destruct (small_right v) as [_ [_ [B _]]].
-  assert (N : small_edges v up right < - E) by (apply Rnot_ge_lt; intros X; apply B in X; congruence).
-  exact (small_outside a b c a' b' c' up right Ca Cb Cc f_up f_right in_up in_right P N).
-Qed.
-Theorem recorded_small_nearness na' nb' nc' :
-  let na := r_var v "na" in let nb := r_var v "nb" in let nc := r_var v "nc" in
-  let own := r_var v "own" in
-  is_float na -> is_float nb -> is_float nc ->
-  Rabs (na - na') <= own -> Rabs (nb - nb') <= own -> Rabs (nc - nc') <= own ->
-  8 * u * Rabs na <= own -> tiny <= own -> 0 <= T * e_bc -> 0 <= T * e_ca -> 0 <= T * e_ab ->
-  fl v small_least <= (e_bc * na' + e_ca * nb' + e_ab * nc') / T <= fl v small_most.
-Proof.
-  intros na nb nc own Fa Fb Fc Oa Ob Oc R Y H1 H2 H3. assert (P := proj1 (small_path_right v) not_left).
-  destruct (small_right v) as [_ [_ [_ [-> [-> _]]]]].
-  exact (small_nearness a b c a' b' c' up right Ca Cb Cc f_up f_right in_up in_right P na nb nc own
-    na' nb' nc' Fa Fb Fc Oa Ob Oc R Y H1 H2 H3).
-Qed.
-
-(** A box of one pixel is its own case in the code, with the same results. *)
-Theorem recorded_one_pixel : up = 0 -> right = 0 ->
-  fl v small_one_edge = fl v RecordedPixels.small_edge /\ fl v small_one_least = fl v small_least /\
-  fl v small_one_most = fl v small_most /\
-  truth rnd v small_one_inside = truth rnd v RecordedPixels.small_inside /\
-  truth rnd v small_one_sure = truth rnd v small_sure.
-Proof.
-  intros U R. destruct (small_right v) as [_ [E1 [I1 [L1 [M1 S1]]]]].
-  destruct (small_one_right v) as [_ [E2 [I2 [L2 [M2 S2]]]]]. rewrite U, R in *.
-  split; [congruence|]. split; [congruence|]. split; [congruence|].
-  split; apply eq_iff_eq_true; [rewrite I1, I2 | rewrite S1, S2]; reflexivity.
-Qed.
-End Small.
 
 (** ** The clip range *)
 

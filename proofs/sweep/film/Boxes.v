@@ -1,4 +1,4 @@
-(** Why no pixel outside a triangle's box has a ray that meets it; what [certain] and [nearest] say.
+(** Why no pixel outside a triangle's box has a ray that meets it; what [nearest] says.
 
     [enter] in [film.py]. Every corner that is before the eye has a range of pixels, widened by its
     error; a triangle's box is the least of the lower ends and the greatest of the upper ones. What
@@ -134,35 +134,6 @@ Proof.
   assert (G : 10099 / 10000 * (9997 / 10000 * M) <= K * q) by (apply Rmult_le_compat; lra).
   generalize (rnd_at_least (K * q) ltac:(lra)).
   assert (u * (K * q) <= / 1000000 * (K * q)) by (apply Rmult_le_compat_r; lra). lra.
-Qed.
-
-(** [certain]: the film position is off by no more than DELTA. *)
-Lemma certain delta : 1000 * (weight * size) <= w -> margin_2 w <= delta / 2 -> Rabs (rnd (p / w)) <= far ->
-  0 < w' /\ near (rnd (p / w)) (p' / w') delta.
-Proof.
-  intros A D F. assert (P := u_pos). assert (T := u_tiny). assert (E := eta_pos). assert (N := n_real).
-  assert (B := M_far). assert (C := margin_2_least). assert (W := Rabs_le_inv _ _ off_w).
-  assert (Ws := weight_size).
-  assert (W' : 999 / 1000 * w <= w') by lra. split; [lra|].
-  assert (eta_1 := eta_u6).
-  set (a := p / w) in *. assert (R := rnd_err a).
-  assert (Ba : Rabs a <= 10001 / 10000 * far).
-  { assert (u * Rabs a <= / 1000000 * Rabs a) by (apply Rmult_le_compat_r; [apply Rabs_pos | lra]).
-    generalize (Rabs_triang_inv a (rnd a)). rewrite Rabs_minus_sym. lra. }
-  assert (G : near a (p' / w') (922 / 1000 * M)).
-  { unfold near. replace (a - p' / w') with (((p - p') - a * (w - w')) / w') by (unfold a; field; lra).
-    unfold Rdiv at 1. rewrite Rabs_mult, Rabs_inv, (Rabs_pos_eq w') by lra.
-    apply Rmult_le_reg_r with w'; [lra|]. rewrite Rmult_assoc, Rinv_l, Rmult_1_r by lra.
-    eapply Rle_trans; [apply tri; [exact off_p | apply prod; [exact Ba | exact off_w]]|].
-    apply Rle_trans with (922 / 1000 * M * (999 / 1000 * w)).
-    - replace (922 / 1000 * M * (999 / 1000 * w)) with (922 / 1000 * (999 / 1000) * (place + far * (weight * size)))
-        by (unfold M; field; lra).
-      assert (0 <= far * (weight * size)) by (apply Rmult_le_pos; lra).
-      assert (0 <= place) by (eapply Rle_trans; [|exact place_some]; repeat (lra || apply Rmult_le_pos)). lra.
-    - apply Rmult_le_compat_l; [|exact W']. assert (0 <= u * far) by (apply Rmult_le_pos; lra). lra. }
-  eapply near_le; [eapply near_trans; [exact R | exact G]|].
-  assert (u * Rabs a <= u * (10001 / 10000 * far)) by (apply Rmult_le_compat_l; lra).
-  assert (u * 1 <= u * far) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
 
 Variable i : Z.

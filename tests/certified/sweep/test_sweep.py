@@ -15,7 +15,6 @@ from reference_tracer.certified.sweep import (
     depth_buffer,
     rasterise,
     resolve,
-    small_boxes,
     sweep,
 )
 from reference_tracer.scene import Mesh, Region
@@ -101,12 +100,9 @@ DIVISIONS = {
     "triangles by threes": [(sweep, "_TRIANGLES", 3)],
     "one depth bin": [(depth_bins, "BINS", 2)],
     "few depth bins": [(depth_bins, "BINS", 5)],
-    "pairs by ones": [(resolve, "_PAIRS", 1), (rasterise, "_BOXES", 1)],
-    "pairs by sevens": [(resolve, "_PAIRS", 7), (rasterise, "_BOXES", 7)],
+    "pairs by ones": [(resolve, "_PAIRS", 1), (rasterise, "_VALUES", 1)],
+    "pairs by sevens": [(resolve, "_PAIRS", 7), (rasterise, "_VALUES", 7)],
     "cells by ones": [(rasterise, "_CELLS", 1)],
-    "no padding": [(small_boxes, "_PADDED", np.arange(1, 17, dtype=np.uint16))],
-    "much padding": [(small_boxes, "_PADDED", np.full(16, 16, np.uint16))],
-    "small triangles by ones": [(small_boxes, "_TRIANGLES", 1)],
     "cells of 4 and 16": sizes(4, 16),
     "cells of 2 and 64": sizes(2, 64),
     "cells of 1 and 1": sizes(1, 1),
@@ -122,7 +118,7 @@ DIVISIONS = {
     "all small": [
         (sweep, "_TRIANGLES", 2), (depth_bins, "BINS", 3), (resolve, "_PAIRS", 5),
         (rasterise, "_CELLS", 2),
-        (rasterise, "_BOXES", 2), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
+        (rasterise, "_VALUES", 2), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
         *sizes(2, 4),
     ],
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""`sweep/boxes.py`, `small_boxes.py`: what is out of view, and which bounds a triangle has."""
+"""`sweep/boxes.py`: what is out of view, and where on the film."""
 
 from __future__ import annotations
 
@@ -6,13 +6,12 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
-from reference_tracer.certified.sweep import boxes, small_boxes
+from reference_tracer.certified.sweep import boxes
 from reference_tracer.certified.sweep.boxes import InstanceBoxes
 from reference_tracer.certified.sweep.film import Film
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 
 from . import film
-from .bounds import FIRST
 from .camera import MATRIX, PIXELS, REGION
 from .film import BOUNDS, DOMAIN, PLACE
 from .record import BY_HAND, Inputs, Kept, Record, named, numpy_with
@@ -68,20 +67,6 @@ def _corners(v: Inputs) -> Kept:
     return *(corners[k, n] for k in range(3) for n in range(8)), size
 
 
-def _are_small(v: Inputs) -> Kept:
-    own = SimpleNamespace(
-        camera=SimpleNamespace(width=v.scalar("width"), height=v.scalar("height"))
-    )
-    certain = v.vector("certain_a certain_b certain_c").reshape(-1)
-    vertices = SimpleNamespace(certain=certain)
-    expanded = SimpleNamespace(vertices=vertices, corners=np.array([[0], [1], [2]]))
-    ends = v.vector("low_x low_y"), v.vector("high_x high_y")
-    return [small_boxes.are_small(own, expanded, *ends, FIRST)]
-
-
-_SMALL = dict(low_x=3.0, low_y=4.0, high_x=7.0, high_y=9.0, width=640.0, height=480.0)
-_SMALL_DOMAIN = DOMAIN | dict.fromkeys(("low_x", "low_y", "high_x", "high_y"), PIXELS)
-
 RECORDS = (
     *(
         Record(
@@ -104,20 +89,5 @@ RECORDS = (
         _corners,
         {f"box_corner_{n}_{k}": BY_HAND for k in "xyz" for n in range(8)} | {"box_size": BY_HAND},
         "the box of a mesh",
-    ),
-    *(
-        Record(
-            name,
-            "small_boxes.are_small",
-            _SMALL | dict(certain_a=True, certain_b=True, certain_c=last),
-            _are_small,
-            {name: BY_HAND},
-            note,
-            _SMALL_DOMAIN,
-        )
-        for name, last, note in (
-            ("are_small", True, "where all vertices are certain"),
-            ("are_small_some", False, "where some vertex is not certain"),
-        )
     ),
 )

@@ -15,7 +15,7 @@ from reference_tracer.certified.sweep.vertices import Vertices
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 
 from ..arrays import holds, most
-from .record import BY_HAND, Inputs, Kept, Record, locals_of, named
+from .record import Inputs, Kept, Record, locals_of, named
 
 WINDOW = dict(left=-0.5, right=0.5, bottom=-0.4, top=0.4, width=640.0, height=480.0)
 PLACE = dict(ox=0.5, oy=-0.25, oz=1.5)
@@ -37,7 +37,7 @@ DOMAIN = dict(width=_SIZES, height=_SIZES, left=_LOW, right=_HIGH, bottom=_LOW, 
 # The theorem of a perspective and of an orthographic camera.
 _PROVEN = {
     "place": ("Perspective.vertex_near", "Orthographic.vertex_near'"),
-    "certain": ("FilmCode.certain_code", "FilmCode.certain_code'"),
+    "position": ("FilmCode.perspective_enter", "FilmCode.parallel_enter"),
     "nearest": ("Perspective.nearest_seen", "Orthographic.nearest_seen'"),
     "ahead": ("FilmCode.ahead_code", "FilmCode.ahead_code'"),
     "box": ("Perspective.box_holds", "Orthographic.box_holds'"),
@@ -46,14 +46,13 @@ _PROVEN = {
 # What a vertex gets, in its order, with what proves it.
 _RESULTS = (
     ("place", "p q w depth size"),
-    ("certain", "x y"),
+    ("position", "x y"),
     ("nearest", "nearest"),
     ("ahead", "ahead"),
-    ("certain", "certain"),
     ("place", "finite"),
     ("box", "lowest_x lowest_y minus_highest_x minus_highest_y margin"),
 )
-_FIELDS = ("p", "q", "w", "depth", "size", "x", "y", "nearest", "ahead", "certain", "finite")
+_FIELDS = ("p", "q", "w", "depth", "size", "x", "y", "nearest", "ahead", "finite")
 
 
 def camera(v: Inputs, projection: Projection) -> SimpleNamespace:
@@ -156,29 +155,6 @@ def _pairs() -> Iterator[Record]:
             named(f"film_place_{name}", "constant slope", _PROVEN["place"][of.shares_direction]),
             of.name,
             DOMAIN,
-        )
-        yield Record(
-            f"film_certain_error_{name}",
-            "film.Film.certain_error",
-            BOUNDS | dict(width=640.0, height=480.0, nearness=0.5),
-            _of_film(
-                lambda f, v: [f.certain_error(v.one("nearness"))],
-                of,
-                "place",
-                "ray_error",
-                "depth_error",
-            ),
-            {f"film_certain_error_{name}": BY_HAND},
-            of.name,
-            DOMAIN,
-        )
-        yield Record(
-            f"film_certain_nearness_{name}",
-            "film.Film.certain_nearness",
-            dict(depth=2.0),
-            _of_film(lambda f, v: [f.certain_nearness(v.one("depth"))], of),
-            {f"film_certain_nearness_{name}": BY_HAND},
-            of.name,
         )
 
 

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
-from reference_tracer.certified.sweep import rasterise, small_boxes, sweep
+from reference_tracer.certified.sweep import rasterise, sweep
 from reference_tracer.certified.sweep.depth_buffer import ClipRange, DepthBuffer
 from reference_tracer.certified.sweep.rasterise import Boxes
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
@@ -17,13 +17,9 @@ from reference_tracer.scene import Region
 
 from . import edges
 from .bounds import FIRST
-from .record import Inputs, Kept, Record, locals_of, named, numpy_with
+from .record import Inputs, Kept, Record, locals_of, named
 
 _PIXELS = tuple(map(float, range(-64, 65)))
-_SMALL = dict(
-    **dict(xa=5.25, xb=9.5, xc=6.0, ya=7.5, yb=8.25, yc=12.5, x0=5.0, y0=7.0),
-    **dict(na=0.5, nb=0.25, nc=0.375, own=1e-9, up=2.0, right=1.0),
-)
 
 
 class _Extent:
@@ -47,27 +43,6 @@ def _may_be_seen(v: Inputs) -> Kept:
     boxes = Boxes(FIRST, v.vector("x y"), v.vector("x_end y_end"))
     rasterise._may_be_seen(edges.variables(v), boxes, v.one("farthest"), depths)
     return [v.chosen(0)]
-
-
-def _small(v: Inputs, width: int) -> Kept:
-    """A box of one pixel is its own case; of another, any pixel: `up` and `right` say which."""
-    depths = {"x": "xa xb xc", "y": "ya yb yc", "depth": "na nb nc"}
-    vertices = SimpleNamespace(**{k: v.vector(names).reshape(-1) for k, names in depths.items()})
-    expanded = SimpleNamespace(vertices=vertices, corners=np.array([[0], [1], [2]]))
-    film = SimpleNamespace(
-        certain_nearness=lambda depth: depth.copy(), certain_error=lambda nearest: v.one("own")
-    )
-    places = iter(("up", "right"))
-    with (
-        numpy_with(small_boxes, arange=lambda _: v.one(next(places))),
-        mock.patch.object(small_boxes, "_pixels", lambda *some: (some[3], slice(None))),
-        locals_of(small_boxes._pairs) as local,
-    ):
-        low = v.vector("x0 y0")
-        some = Boxes(FIRST, low, low)
-        out = small_boxes._pairs(film, expanded, some, [(0, 1, 1, width)], None, [])
-    first = (value[:1] for value in (out.least, out.most, out.sure))
-    return local["volume"], local["least"][:1], v.chosen(1), *first
 
 
 def _clip(v: Inputs, projection: Projection) -> Kept:
@@ -132,21 +107,6 @@ RECORDS = (
         | dict(x=5.0, y=6.0, x_end=9.0, y_end=9.0, region_x=7.0, region_y=8.0, farthest=-1.0),
         _may_be_seen,
         {"may_be_seen": "SweepPixels.may_be_seen_right"},
-    ),
-    Record(
-        "small",
-        "small_boxes.small_pairs",
-        _SMALL,
-        lambda v: _small(v, 2),
-        _theorems("small", f"T {_PAIRS}"),
-    ),
-    Record(
-        "small_one",
-        "small_boxes.small_pairs",
-        _SMALL | dict(x0=6.0, y0=9.0),
-        lambda v: _small(v, 1),
-        _theorems("small_one", f"T {_PAIRS}"),
-        "a box of one pixel",
     ),
     *(
         Record(
