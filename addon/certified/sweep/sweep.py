@@ -30,8 +30,7 @@ from .rasterise import Boxes, Covered, rasterised, split
 from .resolve import Resolver
 from .small_triangles import SmallTriangles
 
-_TRIANGLES = 1 << 17  # triangles tested against the depth buffer together
-_SET_UP = 1 << 14  # triangles set up together
+_TRIANGLES = 1 << 15  # triangles that are tested against the depth buffer, and set up, together
 _FRAGMENTS = 1 << 10  # fragments for which there is always room
 _PIXELS = 1 << 15  # pixels of a plane at a time
 _PAIRS = 1 << 15  # pairs entered into the depth buffer together
@@ -181,12 +180,6 @@ class Sweep:
         """Sweep those of some triangles of a chunk that the depth buffer does not hide."""
         low, high = boxed.in_region(some)
         some = gather(some, self.not_hidden(low, high, gather(boxed.nearest, some)))
-        yield None
-        for part in parts(len(some), _SET_UP):
-            yield from self._enter_functions(boxed, some[part])
-
-    def _enter_functions(self, boxed: Boxed, some: Index) -> Work[None]:
-        """Set up some triangles, and sweep the pixels that they may cover."""
         expanded = boxed.expanded
         origin = gather(boxed.low, some)
         reach = np.maximum(*(gather(boxed.high, some) - origin)) + 1.0
