@@ -7,7 +7,6 @@ nearest. `resolve.py` decides which of them is. Theorem: `Sweep.sweep_sees_what_
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -24,9 +23,9 @@ from .boxes import Boxed, InstanceBoxes, boxes_of
 from .chunks import Chunk, Names, Numbering, chunks, expand
 from .depth_bins import by_depth
 from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments, nearness
-from .edge_functions import EdgeFunctions, set_up
+from .edge_functions import set_up
 from .film import Film
-from .rasterise import Boxes, Covered, rasterised, split
+from .rasterise import Boxes, Covered, rasterised
 from .resolve import Resolver
 from .small_triangles import SmallTriangles
 
@@ -190,18 +189,13 @@ class Sweep:
         low, high = boxed.in_region(of)
         boxes = Boxes(np.arange(len(of)), low, high)
         yield None
-        for pairs in Covered.together(self.pairs(found, boxes), _PAIRS):
+        for pairs in Covered.together(rasterised(found, boxes, self._depths), _PAIRS):
             self._keep(self.of_pairs(pairs, boxed.first + gather(of, pairs.owner)))
             yield None
 
     def not_hidden(self, low: Index, high: Index, nearest: Floats) -> Index:
         """Return which boxes the depth buffer does not surely hide; it knows about small boxes."""
         return np.flatnonzero(~(nearest < self._depths.farthest_in(low, high)))
-
-    def pairs(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
-        """Rasterise boxes, in small steps."""
-        for some in split(found, boxes, self._depths):
-            yield from rasterised(found, some, self._depths)
 
     def of_pairs(self, pairs: Covered, surface: Index) -> Fragments:
         """Enter sure hits into the depth buffer; return the fragments, and all that is not sure."""
