@@ -85,7 +85,7 @@ class SampleBand:
             ]
             pixel, place = np.unique(around, return_inverse=True)
             largest = self._own(pixel)[place].reshape(9, -1).max(axis=0)
-            self.values[row[part], column[part]] = np.maximum(largest, self._least())
+            self.values[row[part], column[part]] = np.maximum(largest, self._renderer.snapping)
             yield None
 
     def _find_all(self) -> Work[None]:
@@ -96,16 +96,14 @@ class SampleBand:
             own.flat[part] = self._own(np.arange(own.size)[part])
             yield None
         smallest = float(np.min(own, where=own > 0, initial=SNAPPING))
-        self.values[:] = yield from spread_error(own, self._least(smallest))
+        least = max(self._renderer.snapping, smallest)
+        self.values[:] = yield from spread_error(own, least)
 
     @property
     def _frame(self) -> Frame:
         frame = self._weak()
         assert frame, "who asks for a frame's band has the frame"
         return frame
-
-    def _least(self, smallest: float = SNAPPING) -> float:
-        return max(self._renderer.snapping, smallest)
 
     def _own(self, pixel: Index) -> Floats:
         """Return the errors of the surfaces that n pixels show, (n,) pixels; 0 for none."""
@@ -131,8 +129,8 @@ def _most(scene: Scene, frame: Frame, renderer: Renderer) -> float:
     """
     camera = scene.camera
     is_proven = (frame.certainty != Certainty.NOT_CERTIFIED).all()
-    bounded = renderer.most and is_proven and camera.projection.is_linear and not scene.planes
-    if not renderer.most or not bounded or renderer.snapping < SNAPPING:
+    bounded = is_proven and camera.projection.is_linear and not scene.planes
+    if not renderer.most or not bounded:
         return np.inf
     seen = np.bincount(frame.instance_index.ravel() + 1, minlength=1 + len(scene.instances))[1:] > 0
     with np.errstate(all="ignore"):

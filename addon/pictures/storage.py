@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -55,7 +56,7 @@ def differing(
     shape, count = first.shape[:-1], first.shape[-1]
     between = np.broadcast_to(interpolated, shape).ravel()
     sides = first.reshape(-1, count), second.reshape(-1, count)
-    return by_runs(lambda *run: _differing(*run, stored), *sides, between).reshape(shape)
+    return by_runs(partial(_differing, stored=stored), *sides, between).reshape(shape)
 
 
 def _differing(first: Array, second: Array, between: Bools, stored: Storage) -> Bools:
