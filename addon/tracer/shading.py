@@ -25,17 +25,13 @@ def colors(scene: Scene, hits: Hits) -> Colors:
     interpolated between them by the barycentrics.
     """
     first, last = scene.color_rows
-    has_slots = first != last
-    if not has_slots.any():
-        out = scene.color_table.take(first, axis=0).take(hits.instance, axis=0)
-    else:
-        row = first.take(hits.instance)
-        several = np.flatnonzero(has_slots.take(hits.instance))
-        for mesh, some in by_mesh(scene, hits.instance[several]):
-            pixels = several[some]
-            slots = mesh.slots.take(hits.triangle[pixels])
-            row[pixels] = np.minimum(row[pixels] + slots, last[hits.instance[pixels]])
-        out = scene.color_table.take(row, axis=0)
+    row = first.take(hits.instance)
+    several = np.flatnonzero((first != last).take(hits.instance))
+    for mesh, some in by_mesh(scene, hits.instance[several]):
+        pixels = several[some]
+        slots = mesh.slots.take(hits.triangle[pixels])
+        row[pixels] = np.minimum(row[pixels] + slots, last[hits.instance[pixels]])
+    out = scene.color_table.take(row, axis=0)
     if any(mesh.corner_colors is not None for mesh in scene.meshes):
         for mesh, pixels in by_mesh(scene, hits.instance):
             if mesh.corner_colors is not None:
