@@ -74,11 +74,8 @@ def _normals(scene: Scene, instance: Index, triangle: Index) -> Vectors:
 
 
 def near_1(v: Vectors) -> Vectors:
-    """Return vectors (3, n), scaled where their products might overflow or underflow."""
-    size = largest(*np.abs(v))
-    if (((size > 2.0**-100) & (size < 2.0**100)) | (size == 0)).all():
-        return v
-    return np.ldexp(v, -np.frexp(size)[1])
+    """Return vectors (3, n), scaled by powers of 2: their products neither over- nor underflow."""
+    return np.ldexp(v, -np.frexp(largest(*np.abs(v)))[1])
 
 
 def positions(rays: Rays, hits: Hits) -> Vectors:
