@@ -68,9 +68,11 @@ class Cells:
         plane = np.where(hits.instance >= len(scene.instances), -2 - hits.instance, NOTHING)
         name = np.where(name >= 0, name, plane).reshape(shape)
         t = depth.reshape(shape)
-        least = nearness(camera, t, t, ROUNDING)[0]
-        off = 0.0 if camera.projection.shares_direction else 2 * faces.film.ray_error
-        least -= np.abs(least) * off
+        least, most = nearness(camera, t, t, ROUNDING)
+        off = 2 * faces.film.ray_error * (1.0 if camera.projection.shares_direction else most)
+        least -= off
+        # At the ends of the clip range rays between these may see past what these see.
+        least[~faces.clip.inside(least, most + off)] = -np.inf
         self._name = np.pad(name, 1, constant_values=NOTHING)
         self._least = np.pad(least, 1)
         # All rays between four that meet one triangle, which is convex, meet it, too.

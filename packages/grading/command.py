@@ -63,7 +63,7 @@ _CODES = f"""exit codes:
 def add(parser: Parser) -> None:
     """Add the command's options."""
     parser.runs(
-        run,
+        judge,
         "reftrace judge --template my_test.py\n  reftrace judge my_test.py --out out/judged",
         _CODES,
     )
@@ -130,15 +130,10 @@ def add(parser: Parser) -> None:
     add_camera(parser)
 
 
-def run(given: Namespace) -> int:
-    """Write the template, or judge."""
+def judge(given: Namespace) -> int:
+    """Write the template; or judge, and print the tables."""
     if given.template:
         return _write_template(given.template, given.subject)
-    return judge(given)
-
-
-def judge(given: Namespace) -> int:
-    """Judge, and print the tables."""
     from .judging import names
     from .tables import class_table
 
@@ -171,6 +166,10 @@ def judge(given: Namespace) -> int:
     return max(CODES[s["verdict"]] for s in every)
 
 
+Named = tuple[str, Scene, Path]
+Scenes = Sequence[tuple[Path, Choice]]
+
+
 def _folder(
     given: Namespace, scenes: Scenes, submissions: Mapping[str, Code]
 ) -> ClassFolder | None:
@@ -182,10 +181,6 @@ def _folder(
     files = [(path.read_bytes(), choice) for path, choice in scenes]
     depends = files, given.pixels or PIXELS, limits_of(given, MEMORY)
     return ClassFolder(given.out, subject(given.subject), tuple(submissions), depends, secret())
-
-
-Named = tuple[str, Scene, Path]
-Scenes = Sequence[tuple[Path, Choice]]
 
 
 def _judged(

@@ -67,7 +67,7 @@ def _runs(given: Namespace) -> list[Run]:
     runs = []
     for command in dict.fromkeys(given.programs or ()):
         try:
-            runs.append(Run.parsed(command, given.exchange or CSV))
+            runs.append(Run(command, given.exchange or CSV))
             check_shown(runs[-1].words)
         except ValueError as error:
             raise SceneError(f"--run {command!r}: {error}") from error

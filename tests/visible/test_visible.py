@@ -203,6 +203,23 @@ def test_through_the_camera_and_the_clip_range(seed):
         judged(scene_of(triangles(points), camera=own))
 
 
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+@pytest.mark.parametrize("seed", [6, 34])
+def test_behind_a_face_in_the_clip_start(projection, seed):
+    """Rounding decides which rays see it, so that it hides nothing, whatever rays beside see."""
+    random = np.random.default_rng(seed)
+    axes = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    start = random.uniform(1, 3)
+    own = camera(projection, axes[:, 2] * 4, axes, clip_start=start, width=4, height=4)
+    large = np.array([(-9, -9, -start), (30, -9, -start), (-9, 30, -start)])
+    at = random.uniform(-0.8, 0.8, (40, 1, 3)) * (1, 1, 0) - (0, 0, 3.5)
+    small = at + random.normal(0, 0.002, (40, 3, 3))
+    points = np.concatenate((large[None], small)) @ axes.T + own.origin
+    scene = scene_of(triangles(points), camera=own)
+    hidden = visible(scene).seen == HIDDEN
+    assert not any(hidden & (np.array(seen_areas(scene)) > 0))
+
+
 def test_edge_on_faces_are_hidden():
     wall = triangles([[(0.5, -1, 0), (0.5, 1, 0), (0.5, 0, -3)]])
     found = judged(scene_of(wall, camera=camera(ORTHOGRAPHIC)))

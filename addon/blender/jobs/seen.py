@@ -21,7 +21,7 @@ from ...visible import steps
 from ..evaluating import evaluated, export_for_render
 from ..reading.camera import export_camera
 from ..reading.export import export
-from ..temporary import HIDDEN_FACES, everything, made_for, temporary_scene
+from ..temporary import HIDDEN_FACES, everything, leave_out, made_for, temporary_scene
 from ..turns import once
 from ..values import values_restored
 from .stepping import stepped
@@ -70,12 +70,13 @@ def look(context: Any, meshes: Collection[Any], frames: Sequence[int]) -> Work[C
         obj.update_from_editmode()
         unsure = MAY_BE * obj.reference_tracer.infinite_plane  # which has no faces
         found.faces[obj.data] = np.full(len(obj.data.polygons), unsure, np.uint8)
-    if not frames:
+    if frames:
+        with values_restored():
+            for number, frame in enumerate(stepped(scene, frames)):
+                work = _look(scene, layer, own, found)
+                yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
+    else:
         yield from _look(scene, layer, own, found)
-    with values_restored():
-        for number, frame in enumerate(stepped(scene, frames)):
-            work = _look(scene, layer, own, found)
-            yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
     if not found.objects:
         raise SceneError(f"Scene '{scene.name}' shows no faces")
     return found
@@ -126,9 +127,7 @@ def _codes(tmp: Any, own: Mapping[str, Any]) -> dict[tuple[str, bytes], Integers
     They are found by the object's name and the mesh's triangles: shape keys and simulations move
     points. The temporary scene has copies of the objects then, and nothing else.
     """
-    for items in (tmp.collection.children, tmp.collection.objects):
-        for item in items[:]:
-            items.unlink(item)
+    leave_out(tmp, {*tmp.objects})
     coded = {obj.data: made_for(tmp, obj.data.copy()) for obj in own.values()}
     for mesh in coded.values():
         attribute = mesh.attributes.new(_CODE, "INT", "FACE")
