@@ -152,11 +152,6 @@ Check CodeRange.taken_is_finite.
 Check IntegersCode.hit_is.
 (** Integers: likewise on an infinite plane. *)
 Check IntegersCode.plane_is.
-(** Integers: likewise which triangles are left out together for rays from one point: those whose hit is
-    None before the clip range. *)
-Check IntegersCode.many_from_point_is.
-(** Integers: likewise for parallel rays. *)
-Check IntegersCode.many_parallel_is.
 (** Integers: likewise whether a hit is in the clip range, with a start and an end. *)
 Check IntegersCode.clipped_both_is.
 (** Integers: likewise what is divided for t. *)

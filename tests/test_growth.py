@@ -111,7 +111,7 @@ def of_a_glb(scene, path):
 
 
 def of_students(scene, path):
-    same = [Run.parsed("same")] * len(scene.meshes)
+    same = [Run("same")] * len(scene.meshes)
     own = [path.parent / str(k) / "ray.py" for k in range(len(scene.meshes))]
     return lambda: ClassFolder(path.parent, TRIANGLE, names([*own, *same]))
 

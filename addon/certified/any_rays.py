@@ -23,7 +23,6 @@ from .arithmetic import sound, sound_steps
 from .bounds import FromPoint
 from .exact import IntegerBatch
 from .ladder import Ladder, in_range, sides
-from .many import hits as hits_of
 from .surfaces import SURE, Surfaces
 from .triangle_tree import TriangleTree
 
@@ -145,9 +144,8 @@ def decide(
     for part in (rest[some] for some in parts(len(rest), 4096)):
         used, number = occurring(row[part], corners.shape[2])
         batch = IntegerBatch(rays.take(part), corners.take(used, axis=2), (), start, end)
-        found = hits_of(batch, np.arange(len(part)), number)
-        for pair, hit in zip(part.tolist(), found, strict=True):
-            if hit:
+        for k, pair in enumerate(part.tolist()):
+            if hit := batch.hit(k, number.item(k)):
                 crossed[pair], edge[pair] = hit.is_crossed(), hit.on_edge
                 along[pair] = hit.denominator > 0
     return Decision(crossed, edge, along, undecided)

@@ -15,7 +15,6 @@ from ..tracer.camera import Rays
 from ..tracer.hits import Hits
 from ..tracer.ties import Ties
 from . import exact, order
-from .many import hits as hits_of
 from .measures import Prepared
 from .surfaces import SURE, Candidates, Surfaces
 from .ties import seen_and_ties
@@ -98,7 +97,7 @@ class Decisions:
         Returns the exact hit on each candidate, and the hit that its ray sees.
         """
         batch, *pairs = self.surfaces.integers(self.rays, found.ray, found.surface, self.clip)
-        met = hits_of(batch, *pairs)
+        met = list(map(batch.hit, *(v.tolist() for v in pairs)))
         instance, triangle = (v.tolist() for v in self.surfaces.names(found.surface))
         names = list(zip(instance, triangle, strict=True))
         starts = np.flatnonzero(np.diff(found.ray, prepend=-1)).tolist()

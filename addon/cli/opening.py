@@ -86,7 +86,7 @@ def open_frames(
         frames = frames_named(named) or frames_of(user)
         views = of_frames(choice.views, frames) if choice.views else {}
         bake_bodies(user, frames[-1])
-        for frame in stepped(user, [*frames]):
+        for frame in stepped(user, frames):
             with seen_by(user, views.get(frame)):
                 opened = Opened(*export_open_file(blender.context, whole=whole))
             yield frame, opened

@@ -73,15 +73,20 @@ def trace_and_compare(case: Case, literally: bool = False) -> Work[Comparison]:
     check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # frames ask for theirs again
     frame = Frame.empty(case.scene)
     case.picture.check(frame.color.shape)
-    rest = 1 - _CHECKING if case.self_check else 1.0
+    share = 1 - _CHECKING if case.self_check else 1.0
     tracing = steps(case.scene, case.settings, frame, case.tracer)
-    yield from scaled(tracing, 0.0, rest * _TRACING, "tracing")
+    yield from scaled(tracing, 0.0, share * _TRACING, "tracing")
     listing = list_methods(case.scene, case.settings, frame, case.tracer, literally)
-    share = rest * _METHODS
-    methods = yield from scaled(listing, rest * _TRACING, share, "tracing by the textbook")
-    done = rest * (_TRACING + _METHODS)
-    found = yield from scaled(compare(case, frame), done, 1 - done)
-    return replace(found, methods=methods.rows, literal=methods.literal)
+    words = "tracing by the textbook"
+    methods = yield from scaled(listing, share * _TRACING, share * _METHODS, words)
+    done = share * (_TRACING + _METHODS)
+    found = yield from scaled(compare(case, frame), done, share - done)
+    checked: tuple[FaultRow, ...] = ()
+    if case.self_check:
+        from ..diagnosis.self_check import self_check
+
+        checked = yield from scaled(self_check(case, frame, found.causes), share, _CHECKING)
+    return replace(found, methods=methods.rows, literal=methods.literal, self_check=checked)
 
 
 def diagnosed(comparison: Comparison, place: str = "", at_most: float = np.inf) -> Work[Comparison]:
@@ -114,14 +119,12 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
         If its samples lie too far from the pixels' centres.
     """
     case.picture.check(frame.color.shape)
-    rest = 1 - _CHECKING if case.self_check else 1.0
-    found = yield from scaled(explain(case, frame), 0.0, rest * _CAUSES, "looking for causes")
+    found = yield from scaled(explain(case, frame), 0.0, _CAUSES, "looking for causes")
     traced, picture = found.frame, found.case.picture  # both before the picture's own background
     color, *pair = picture.measured_with(traced)
     traced = replace(traced, color=color)
-    share = rest * (1 - _CAUSES)
     measuring = image_metrics(*pair)
-    measured = yield from scaled(measuring, rest * _CAUSES, share, "measuring differences")
+    measured = yield from scaled(measuring, _CAUSES, 1 - _CAUSES, "measuring differences")
     identity = picture.identity(traced.instance_index)
     yield None
     at_boundary = boundary(traced)
@@ -129,12 +132,6 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     features = [str(u) for u in case.manifest.unmodelled]
     counts = count_pixels(found.causes, at_boundary, identity, features)
     yield None
-    checked: tuple[FaultRow, ...] = ()
-    if case.self_check:
-        from ..diagnosis.self_check import self_check
-
-        checking = self_check(case, frame, found.causes)
-        checked = yield from scaled(checking, rest, _CHECKING)
     return Comparison(
         found.case,
         traced,
@@ -143,6 +140,5 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
         measured,
         excused(found.case, traced, found.causes),
         identity=identity,
-        self_check=checked,
         background=found.background,
     )

@@ -22,7 +22,7 @@ from ..tracer.camera import Rays
 from ..tracer.hits import Hits
 from ..tracer.nearest import test_pairs, test_planes
 from ..tracer.progress import Work
-from ..tracer.world import Pairs, WorldTriangles, world_corners
+from ..tracer.world import Pairs, WorldTriangles, box_corners, world_corners
 
 RAYS = 1 << 12  # traced together
 PAIRS = 1 << 22  # of a ray and an instance that are listed together, at most
@@ -78,15 +78,10 @@ def _tree(mesh: Mesh) -> Tree:
     return _tree_of(corners.min(axis=1).T, corners.max(axis=1).T)
 
 
-@np.errstate(over="ignore", invalid="ignore")
 def _instances(scene: Scene) -> Tree:
     """Return the tree of a scene's instances by their boxes in world space."""
-    bounds = np.array([mesh.bounds for mesh in scene.meshes])[scene.instance_meshes]  # (k, 2, 3)
-    middle, half = bounds.mean(axis=1).T, (bounds[:, 1] - bounds[:, 0]).T / 2
-    m = scene.instance_matrices[:3, :3]
-    middle = (m * middle).sum(axis=1) + scene.instance_matrices[:3, 3]
-    half = (np.abs(m) * half).sum(axis=1)
-    return _tree_of(middle - half, middle + half)
+    corners = box_corners(scene.instance_bounds, scene.instance_matrices)
+    return _tree_of(corners.min(axis=0), corners.max(axis=0))
 
 
 def _tree_of(low: Floats, high: Floats) -> Tree:

@@ -17,7 +17,7 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.cause import AGREE, UNEXPLAINED, Causes
 from ..causes.explain import CAUSES, explain
-from ..pictures.storage import differing_pixels
+from ..pictures.storage import differing
 from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
@@ -90,9 +90,9 @@ def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
     """Return which pixels (h, w) the fault changes, in colour or in the object shown."""
     own, other = case.picture.owners, wrong.picture.owners
     if traced is frame:  # it is the picture's
-        changed = differing_pixels(case.picture.color, wrong.picture.color)
+        changed = differing(case.picture.color, wrong.picture.color)
         return changed | (own.pixels != other.pixels) if own and other else changed
-    changed = differing_pixels(frame.color, traced.color)
+    changed = differing(frame.color, traced.color)
     if not own or not other:
         return changed
     return changed | (own.instances[frame.instance_index] != other.instances[traced.instance_index])

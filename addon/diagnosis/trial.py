@@ -10,7 +10,7 @@ from ..arrays import Bools
 from ..causes.case import Case
 from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
-from ..pictures.storage import differing_pixels
+from ..pictures.storage import differing
 from ..rendering import steps
 from ..scene import Scene, SceneError
 from ..tracer import shading
@@ -190,4 +190,4 @@ def _changed(before: Evidence, after: Evidence) -> Bools:
         return np.ones(before.unexplained.shape, bool)
     if not one.has_colors:
         return one.sees_apart(before.frame, after.frame)
-    return differing_pixels(before.frame.color, after.frame.color)
+    return differing(before.frame.color, after.frame.color)

@@ -155,16 +155,21 @@ def _png_size(path: Path) -> tuple[int, int]:
 def _png_of(path: Path) -> StoredPicture:
     with _damage_named(path):
         stored = png.decode(path.read_bytes())
-    values, has_alpha = stored.values, stored.has_alpha
-    channels = values.shape[2]
-    order = [0] * 3 if channels < 3 else [0, 1, 2]  # grey, or RGB
-    order += [channels - 1] * has_alpha
-    color = np.ones((*values.shape[:2], 4), np.float32)
-    for row, own in zip(color, values[::-1], strict=True):
-        row[:, : len(order)] = by_runs(lambda some: decoded(some / stored.levels), own[:, order])
-    levels = max(stored.levels, EIGHT_BITS)
-    engine = engine_of(stored.notes)
-    return StoredPicture(color, levels, not has_alpha, stored.remarks, engine)
+    values, most = stored.values[::-1], stored.levels
+    linear = curve_undone(np.arange(most + 1) / most)  # of each level
+    count = values.shape[2] - stored.has_alpha  # grey, or RGB
+    color = np.empty((*values.shape[:2], 4), np.float32)
+    for row, own in zip(color, values, strict=True):
+        alpha = own[:, count:] / most if stored.has_alpha else 1.0
+        row[:, :3] = linear[own[:, :count]] * alpha
+        row[:, 3:] = alpha
+    return StoredPicture(
+        color,
+        max(most, EIGHT_BITS),
+        not stored.has_alpha,
+        stored.remarks,
+        engine_of(stored.notes),
+    )
 
 
 @contextmanager

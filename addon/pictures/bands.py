@@ -6,7 +6,7 @@ the objects bounds them all.
 
 from __future__ import annotations
 
-from weakref import WeakKeyDictionary, ref
+from weakref import WeakKeyDictionary, proxy
 
 import numpy as np
 
@@ -37,9 +37,7 @@ def band_of(scene: Scene, frame: Frame, renderer: Renderer = RASTER) -> SampleBa
 
     Pictures with a fault are held against the same frame.
     """
-    if not frame.rows_done.all():
-        return SampleBand(scene, frame, renderer)
-    known = _BANDS.setdefault(frame, {})
+    known = _BANDS.setdefault(frame, {}) if frame.rows_done.all() else {}
     key = scene, renderer
     if key not in known:
         known[key] = SampleBand(scene, frame, renderer)
@@ -63,7 +61,7 @@ class SampleBand:
     def __init__(self, scene: Scene, frame: Frame, renderer: Renderer) -> None:
         self.values = np.full(frame.shape, np.nan)
         self._scene, self._renderer = scene, renderer
-        self._weak = ref(frame)  # which is to go once nobody else needs it
+        self._frame: Frame = proxy(frame)  # which is to go once nobody else needs it
         self.most = _most(scene, frame, renderer)
 
     def find(self, asked: Bools) -> Work[None]:
@@ -85,7 +83,7 @@ class SampleBand:
             ]
             pixel, place = np.unique(around, return_inverse=True)
             largest = self._own(pixel)[place].reshape(9, -1).max(axis=0)
-            self.values[row[part], column[part]] = np.maximum(largest, self._least())
+            self.values[row[part], column[part]] = np.maximum(largest, self._renderer.snapping)
             yield None
 
     def _find_all(self) -> Work[None]:
@@ -96,16 +94,8 @@ class SampleBand:
             own.flat[part] = self._own(np.arange(own.size)[part])
             yield None
         smallest = float(np.min(own, where=own > 0, initial=SNAPPING))
-        self.values[:] = yield from spread_error(own, self._least(smallest))
-
-    @property
-    def _frame(self) -> Frame:
-        frame = self._weak()
-        assert frame, "who asks for a frame's band has the frame"
-        return frame
-
-    def _least(self, smallest: float = SNAPPING) -> float:
-        return max(self._renderer.snapping, smallest)
+        least = max(self._renderer.snapping, smallest)
+        self.values[:] = yield from spread_error(own, least)
 
     def _own(self, pixel: Index) -> Floats:
         """Return the errors of the surfaces that n pixels show, (n,) pixels; 0 for none."""
@@ -131,8 +121,8 @@ def _most(scene: Scene, frame: Frame, renderer: Renderer) -> float:
     """
     camera = scene.camera
     is_proven = (frame.certainty != Certainty.NOT_CERTIFIED).all()
-    bounded = renderer.most and is_proven and camera.projection.is_linear and not scene.planes
-    if not renderer.most or not bounded or renderer.snapping < SNAPPING:
+    bounded = is_proven and camera.projection.is_linear and not scene.planes
+    if not renderer.most or not bounded:
         return np.inf
     seen = np.bincount(frame.instance_index.ravel() + 1, minlength=1 + len(scene.instances))[1:] > 0
     with np.errstate(all="ignore"):
@@ -157,9 +147,9 @@ def _most(scene: Scene, frame: Frame, renderer: Renderer) -> float:
 
 def _ends(frame: Frame) -> Bools:
     """Return the first and the last pixel (h, w) of each triangle in a row."""
-    out = np.ones((2, *frame.shape), bool)
-    out[0, :, 1:] = False
+    height, width = frame.shape
+    new = np.ones((height, width + 1), bool)
+    new[:, 1:-1] = False
     for names in (frame.instance_index, frame.triangle_index):
-        out[0, :, 1:] |= names[:, 1:] != names[:, :-1]
-    out[1, :, :-1] = out[0, :, 1:]
-    return out.any(axis=0)
+        new[:, 1:-1] |= names[:, 1:] != names[:, :-1]
+    return new[:, :-1] | new[:, 1:]

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import Array, Floats
 from ..scene import Camera, SceneError
-from ..tracer.camera import film_of, pixel_size
+from ..tracer.camera import camera_rays, film_of, pixel_size
 from .bounds import U32
 
 POINTS = 1024  # besides the volume's corners
@@ -68,22 +68,19 @@ class CameraCertificate(NamedTuple):
 
 def known_points(camera: Camera) -> Floats:
     """Return points all over the view volume, its corners first: (3, n) float64, world space."""
-    w, rng = camera.window, np.random.default_rng(SEED)
+    rng = np.random.default_rng(SEED)
     start, end = camera.clip_start, camera.clip_end
     ends = np.array((start, end if end < np.inf else _ENDLESS * max(abs(start), 1.0)))
-    corners = np.meshgrid((w.left, w.right), (w.bottom, w.top), ends, indexing="ij")
+    corners = np.meshgrid((0.0, camera.width), (0.0, camera.height), ends, indexing="ij")
     x, y, depth = np.reshape(corners, (3, 8))
-    x = np.append(x, rng.uniform(w.left, w.right, POINTS))
-    y = np.append(y, rng.uniform(w.bottom, w.top, POINTS))
+    x = np.append(x, rng.uniform(0, camera.width, POINTS))
+    y = np.append(y, rng.uniform(0, camera.height, POINTS))
     if camera.projection.sees_behind:
         depths = rng.uniform(ends[0], ends[1], POINTS)
     else:  # as many near the camera as far away
         start, end = np.log(ends)
         depths = np.exp(rng.uniform(start, end, POINTS))
-    depth = np.append(depth, depths)
-    scale = camera.projection.scale(depth)
-    beside = x * camera.right[:, None] + y * camera.up[:, None]
-    return camera.origin[:, None] + scale * beside + depth * camera.forward[:, None]
+    return camera_rays(camera, x, y).at(np.append(depth, depths))
 
 
 def certify(camera: Camera, points: Floats, film: Floats) -> CameraCertificate:

@@ -12,7 +12,7 @@ from typing import ClassVar, NamedTuple, Self, TypeVar
 
 import numpy as np
 
-from ..arrays import Array, Bools, Colors, Floats, Index, Where, by_runs
+from ..arrays import Array, Bools, Colors, Floats, Index, Where
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.frame import Frame
@@ -161,31 +161,23 @@ class Picture:
 
     def other_color(self, colors: Array, interpolated: Bools | bool = False) -> Bools:
         """Return where the colour is another than (..., 4) traced ones."""
-        shape, count = colors.shape[:-1], colors.shape[-1]
-        flat = colors.reshape(-1, count), self.color.reshape(-1, self.color.shape[-1])
-
-        def differ(traced: Array, own: Array, between: Array) -> Bools:
-            first, second = self._sides(traced, own)
-            return differing(first, second, between, self.storage)
-
-        between = np.broadcast_to(interpolated, shape).ravel()
-        return by_runs(differ, *flat, between).reshape(shape)
+        return differing(*self._sides(colors), interpolated, self.storage)
 
     def difference(self, colors: Array) -> tuple[Floats, Floats]:
         """Return how far (..., 4) traced colours are from these, and how far they may be, (...).
 
         Both are of the channel in which a pixel is nearest to differing, or differs most.
         """
-        traced, own = self._sides(colors, self.color)
+        traced, own = self._sides(colors)
         apart, allowed = difference(traced, own, stored=self.storage)
         worst = np.argmax(np.nan_to_num(apart - allowed), axis=-1)[..., None]
         apart, allowed = (np.take_along_axis(v, worst, -1)[..., 0] for v in (apart, allowed))
         return apart, allowed
 
-    def _sides(self, colors: Array, own: Array) -> tuple[Array, Array]:
-        """Return traced colours (..., 4) and those of pixels, in the channels that are compared."""
+    def _sides(self, colors: Array) -> tuple[Array, Array]:
+        """Return traced colours (..., 4) and the own ones, in the channels that are compared."""
         traced = self.made_of(colors)
-        return traced, own[..., : traced.shape[-1]]
+        return traced, self.color[..., : traced.shape[-1]]
 
     def made_of(self, colors: Array) -> Array:
         """Return traced colours (..., 4) as this picture has them, (..., 3) if it is opaque."""

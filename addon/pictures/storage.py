@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -52,6 +53,13 @@ def differing(
 
     What is not finite differs from everything.
     """
+    shape, count = first.shape[:-1], first.shape[-1]
+    between = np.broadcast_to(interpolated, shape).ravel()
+    sides = first.reshape(-1, count), second.reshape(-1, count)
+    return by_runs(partial(_differing, stored=stored), *sides, between).reshape(shape)
+
+
+def _differing(first: Array, second: Array, between: Bools, stored: Storage) -> Bools:
     if stored.levels:
         alike = (first == second) & np.isfinite(first)
     else:  # as much is always allowed, and mostly they are nearer; NaN and infinity are not less
@@ -59,17 +67,10 @@ def differing(
             alike = np.abs(first - second) < LEAST_STEP
     out = ~alike.all(axis=-1)
     first, second = first[out], second[out]
-    between = np.broadcast_to(interpolated, out.shape)[out]
-    apart, allowed = difference(first, second, between, stored)
+    apart, allowed = difference(first, second, between[out], stored)
     finite = np.isfinite(first) & np.isfinite(second)
     out[out] = ~((apart <= allowed) & finite).all(axis=-1)
     return out
-
-
-def differing_pixels(first: Array, second: Array) -> Bools:
-    """Return which pixels of two pictures (h, w, c) differ, as :func:`differing`: a run at once."""
-    flat = (picture.reshape(-1, picture.shape[-1]) for picture in (first, second))
-    return by_runs(differing, *flat).reshape(first.shape[:-1])
 
 
 def difference(

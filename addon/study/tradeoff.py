@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from statistics import median
 from typing import Any
 
-from ..arrays import Floats
+from ..arrays import Colors
 from ..methods import Method
 from ..rendering import steps
 from ..scene import Region, Scene
@@ -21,7 +21,7 @@ from ..tracer.frame import Frame
 from ..tracer.progress import Progress, Work, scaled
 from ..tracer.settings import UNPROVEN_SETTINGS, Precision, Settings
 from .advice import advice, mark
-from .converged import CONVERGED, CONVERGED_RAYS, converged, coverage_error
+from .converged import converged, coverage_error, samples_of
 from .trade import Trade, TradeRow
 from .truth import largest_t_error
 
@@ -82,7 +82,7 @@ class Choice:
 
 
 # Measures choices against the converged colour of the largest picture: a row each.
-Every = Callable[[list[Choice], Floats], Work[list[TradeRow]]]
+Every = Callable[[list[Choice], Colors], Work[list[TradeRow]]]
 
 
 def measure(
@@ -118,7 +118,7 @@ def measure(
     choices = choose(scene, min(WIDTH, scene.camera.width) if width is None else width, samples)
     camera = choices[0].scene.camera
     pixels, each = camera.width * camera.height, sum(c.cost for c in choices)
-    k = max(2 * samples, min(CONVERGED, int((CONVERGED_RAYS / pixels) ** 0.5)))
+    k = samples_of(pixels, samples)
     rays = k * k * pixels
     first = rays / (rays + 6 * each)
     words = f"tracing {k} × {k} rays a pixel"
@@ -127,7 +127,7 @@ def measure(
     return Trade(name, rows, advice(rows), k)
 
 
-def rows_of(choices: list[Choice], truth: Floats) -> Work[list[TradeRow]]:
+def rows_of(choices: list[Choice], truth: Colors) -> Work[list[TradeRow]]:
     """Measure choices; of a width the certified ones are what the others are held against."""
     looking = _look_at_all(choices, truth)
     yield from scaled(looking, 0.0, 1 / 3, "looking at errors and memory")
@@ -159,7 +159,7 @@ def levels(samples: int) -> list[int]:
     return sorted({1 << k for k in range(samples.bit_length())} | {samples})
 
 
-def _look_at_all(choices: list[Choice], truth: Floats) -> Work[None]:
+def _look_at_all(choices: list[Choice], truth: Colors) -> Work[None]:
     """Render each once, untimed, for its memory and its errors, the certified ones first."""
     total, done = sum(c.cost for c in choices), 0.0
     certified: dict[int, Frame] = {}  # by the picture's width

@@ -19,7 +19,8 @@ def cut(polygons: Floats, value: Floats) -> Floats:
     crossing = polygons + share[:, None] * (after - polygons)
     k, c, n = polygons.shape
     every = np.stack((polygons, crossing), axis=1).reshape(2 * k, c, n)
-    kept = np.stack((value >= 0, (value >= 0) != (then >= 0)), axis=1).reshape(2 * k, n)
+    inside = ~(value < 0)  # or not known, where that is NaN
+    kept = np.stack((inside, inside != np.roll(inside, -1, axis=0)), axis=1).reshape(2 * k, n)
     order = np.argsort(~kept, axis=0, kind="stable")[: k + 1]
     order = np.where(np.take_along_axis(kept, order, axis=0), order, order[0])
     out = np.take_along_axis(every, order[:, None], axis=0)

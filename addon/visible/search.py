@@ -76,7 +76,7 @@ class Search:
         self._low[:, some] = np.fmax(self._low[:, some], low)
         self._high[:, some] = np.fmin(self._high[:, some], high)
         self.area[some] = np.fmin(self.area[some], area)
-        self.area[some[np.isnan(left).any(axis=(0, 1))]] = 0
+        self.area[some[np.isnan(left).all(axis=(0, 1))]] = 0
         self.seen[(self.seen == UNDECIDED) & (self.area == 0)] = HIDDEN
 
     def _before_planes(self, face: Index) -> Floats:

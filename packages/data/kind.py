@@ -163,19 +163,17 @@ class Data:
         allowed = 2 * self.step.half(far) + 4 * U32 * np.abs(far)
         return (np.abs(self.values - far) <= allowed)[:, 0]
 
-    def pair(self, frame: Frame) -> tuple[Floats, Floats]:
-        """Return what the file should hold of a frame, and what it holds, (h, w, c) each.
-
-        Both are NaN where nothing is.
-        """
-        return self.of_frame(frame), np.where(self.blank[..., None], np.nan, self.values)
+    @property
+    def held(self) -> Floats:
+        """What the file holds, (..., c); NaN where it says that nothing is there."""
+        return np.where(self.blank[..., None], np.nan, self.values)
 
     def shown(self, values: Array) -> Colors:
         """Return values (h, w, c) as colours to look at, (h, w, 4): from the file's least to most.
 
         What is not finite, or where nothing is, is transparent.
         """
-        own = self.values[np.isfinite(self.values) & ~self.blank[..., None]]
+        own = self.held[np.isfinite(self.held)]
         low, high = (float(np.min(own)), float(np.max(own))) if own.size else (0.0, 1.0)
         with np.errstate(invalid="ignore", over="ignore"):
             grey = np.clip((values - low) / ((high - low) or 1.0), 0, 1)
@@ -188,4 +186,4 @@ class Data:
     @property
     def color(self) -> Colors:
         """The file's own values as colours, (h, w, 4)."""
-        return self.shown(np.where(self.blank[..., None], np.nan, self.values))
+        return self.shown(self.held)

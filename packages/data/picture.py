@@ -56,7 +56,7 @@ class DataPicture(Picture):
 
     def measured_with(self, frame: Frame) -> tuple[Colors, Array, Array]:
         """Return a frame as colours to look at, and both sides' values, 0 where nothing is."""
-        made, held = self.data.pair(frame)
+        made, held = self.data.of_frame(frame), self.data.held
         return self.data.shown(made), np.nan_to_num(made), np.nan_to_num(held)
 
     def as_shown(self, frame: Frame) -> Colors:
@@ -77,7 +77,7 @@ class DataPicture(Picture):
 
     def silent(self, frame: Frame) -> str:
         """Say why such a picture says nothing of what is wrong; many a fault can empty one."""
-        made, held = self.data.pair(frame)
+        made, held = self.data.of_frame(frame), self.data.held
         expected = frame.object_index[..., None] if self.data.kind.name == "ids" else made
         if _is_constant(expected) or not _is_constant(held):
             return ""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reference_tracer.cli.camera_options import add_camera
+from reference_tracer.cli.camera_options import add_camera, choice_from
 from reference_tracer.cli.opening import SOURCES, load
 from reference_tracer.cli.parser import (
     AGREE,
@@ -25,12 +26,12 @@ from reference_tracer.report import folders
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.progress import Work, result_of, scaled
 from reference_tracer.wording import count_of, say, show
-from reference_tracer_processes.options import add_limits
+from reference_tracer_processes.options import add_limits, limits_of
 from reference_tracer_processes.sandbox import sandbox, secret
 
 from .exchange import EXCHANGES
 from .external import Code
-from .options import MEMORY, PIXELS, JudgeOptions
+from .options import MEMORY, PIXELS, camera_options, checked
 from .subjects import NAMES, subject
 
 # As `formats.FORMATS`, which needs all of judging.
@@ -62,7 +63,7 @@ _CODES = f"""exit codes:
 def add(parser: Parser) -> None:
     """Add the command's options."""
     parser.runs(
-        run,
+        judge,
         "reftrace judge --template my_test.py\n  reftrace judge my_test.py --out out/judged",
         _CODES,
     )
@@ -129,61 +130,64 @@ def add(parser: Parser) -> None:
     add_camera(parser)
 
 
-def run(given: Namespace) -> int:
-    """Write the template, or judge."""
+def judge(given: Namespace) -> int:
+    """Write the template; or judge, and print the tables."""
     if given.template:
         return _write_template(given.template, given.subject)
-    return judge(JudgeOptions.parsed(given))
-
-
-def judge(options: JudgeOptions) -> int:
-    """Judge, and print the tables."""
     from .judging import names
     from .tables import class_table
 
+    students, paths = checked(given)
+    scenes = [(path, choice_from(given, path)) for path in paths]
     if not sandbox():
         say(
             "students' code is not kept from the network or from your files, and nothing that was "
             "judged before is believed: bubblewrap is missing"
         )
-    submissions = dict(zip(names(options.students), options.students, strict=True))
-    with folders.made(options.out) if options.out else nullcontext():
-        folder = _folder(options, submissions)
-        found = folder.kept_of(submissions) if folder and not options.again else {}
+    submissions = dict(zip(names(students), students, strict=True))
+    with folders.made(given.out) if given.out else nullcontext():
+        folder = _folder(given, scenes, submissions)
+        found = folder.kept_of(submissions) if folder and not given.again else {}
         if found:
             show(f"{count_of(len(found), 'student')} judged before, unchanged: not judged again")
         new = {name: each for name, each in submissions.items() if name not in found}
         if new:
             try:
-                found |= _judged(options, new, folder)
+                found |= _judged(given, scenes, new, folder)
             finally:  # by Ctrl-C, too: who has been judged is not judged again
                 if folder:
                     folder.save()
-        students = [found[name] for name in submissions]
-        if len(students) > 1:
-            show(*class_table(students))
+        every = [found[name] for name in submissions]
+        if len(every) > 1:
+            show(*class_table(every))
         if folder:
-            folder.write(students, options.formats)
-            show(f"written to {options.out}")
-    return max(CODES[s["verdict"]] for s in students)
-
-
-def _folder(options: JudgeOptions, submissions: Mapping[str, Code]) -> ClassFolder | None:
-    """Return where the judgements are kept, if anywhere."""
-    from .class_folder import ClassFolder
-
-    if options.out is None:
-        return None
-    scenes = [(path.read_bytes(), choice) for path, choice in options.scenes]
-    depends = scenes, options.pixels, options.limits
-    return ClassFolder(options.out, subject(options.subject), tuple(submissions), depends, secret())
+            folder.write(every, dict.fromkeys(given.format or ()))
+            show(f"written to {given.out}")
+    return max(CODES[s["verdict"]] for s in every)
 
 
 Named = tuple[str, Scene, Path]
+Scenes = Sequence[tuple[Path, Choice]]
+
+
+def _folder(
+    given: Namespace, scenes: Scenes, submissions: Mapping[str, Code]
+) -> ClassFolder | None:
+    """Return where the judgements are kept, if anywhere."""
+    from .class_folder import ClassFolder
+
+    if given.out is None:
+        return None
+    files = [(path.read_bytes(), choice) for path, choice in scenes]
+    depends = files, given.pixels or PIXELS, limits_of(given, MEMORY)
+    return ClassFolder(given.out, subject(given.subject), tuple(submissions), depends, secret())
 
 
 def _judged(
-    options: JudgeOptions, submissions: Mapping[str, Code], folder: ClassFolder | None
+    given: Namespace,
+    scenes: Scenes,
+    submissions: Mapping[str, Code],
+    folder: ClassFolder | None,
 ) -> dict[str, Student]:
     """Judge students, print what is said of each, and keep it."""
     from .report import student
@@ -195,17 +199,17 @@ def _judged(
         printed[j.name] = [*lines(j), ""]
         return folder.keep(submissions[j.name], j) if folder else student(j)
 
-    own = built_in() if options.subject == "triangle" else []
-    opened = _opened(options.scenes) or own
+    own = built_in() if given.subject == "triangle" else []
+    opened = _opened(scenes) or own
     with progress_bar() as progress:
-        found = result_of(_work(options, submissions, opened, told), progress)
+        found = result_of(_work(given, submissions, opened, told), progress)
     for name in found:
         show(*printed[name])
     return found
 
 
 def _work(
-    options: JudgeOptions,
+    given: Namespace,
     submissions: Mapping[str, Code],
     scenes: Sequence[Named],
     told: Callable[[Judgement], Student],
@@ -215,11 +219,12 @@ def _work(
 
     judged = []
     for k, (name, scene, path) in enumerate(scenes):
-        work = prepare(name, scene, str(path), options.pixels, options.camera_options)
+        work = prepare(name, scene, str(path), given.pixels or PIXELS, camera_options(given))
         share = 0.5 / len(scenes)
         judged.append((yield from scaled(work, k * share, share, f"tracing {name}")))
-    cases = subject(options.subject).cases()
-    judging = judge_all(submissions, cases, judged, options.limits, told=told, jobs=options.jobs)
+    cases, limits = subject(given.subject).cases(), limits_of(given, MEMORY)
+    jobs = given.jobs or os.cpu_count() or 1
+    judging = judge_all(submissions, cases, judged, limits, told=told, jobs=jobs)
     return (yield from scaled(judging, 0.5, 0.5, "judging"))
 
 
@@ -229,7 +234,7 @@ def built_in() -> list[Named]:
     return [(path.stem, load_scene(path), path) for path in sorted(folder.glob("*.npz"))]
 
 
-def _opened(scenes: Sequence[tuple[Path, Choice]]) -> list[Named]:
+def _opened(scenes: Scenes) -> list[Named]:
     from .names import stems
 
     names = stems([path for path, _ in scenes])

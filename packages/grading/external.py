@@ -32,25 +32,18 @@ class Run:
     """
 
     command: str
-    words: tuple[str, ...]
     exchange: str = CSV  # one of EXCHANGES
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Its words; raises ValueError if there is none, or a quotation has no end."""
+        return words_of(self.command)
 
     @property
     def named(self) -> list[Path]:
         """The files and folders that it names."""
         parts = (part for word in self.words for part in re.split(r"[\s=]", word))
         return [Path(part) for part in parts if part and Path(part).exists()]
-
-    @classmethod
-    def parsed(cls, command: str, exchange: str = CSV) -> Run:
-        """Return how a command is run.
-
-        Raises
-        ------
-        ValueError
-            If a quotation has no end, or there is no word.
-        """
-        return cls(command, words_of(command), exchange)
 
 
 Code = Path | Run  # a student's: a Python file, or how a program of any language is started

@@ -198,8 +198,10 @@ def _on_scene(out: Judgement, student: Submission, scene: JudgedScene) -> Work[N
             mended.append(TRIANGLE.form.answers(right))
         return replies
 
+    before = student.seconds
     try:
-        found = yield from look(scene, ask, lambda: student.seconds)
+        found = yield from look(scene, ask)
+        found = replace(found, seconds=student.seconds - before)
         out.looks.append(replace(found, examples=find_examples(found, student.ask)))
         if out.alike:
             again = iter(mended)

@@ -6,7 +6,7 @@ and the boundary apart.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -56,7 +56,7 @@ class Look:
     mark: Bytes  # (h, w)
     lost: int  # pixels that see another surface than they should, those on the boundary included
     tally: Tally
-    seconds: float
+    seconds: float = 0.0  # that the function itself has taken
     examples: Sequence[WrongCase] = ()  # some of the wrong pixels
 
     @property
@@ -65,7 +65,7 @@ class Look:
         return {m.name.lower(): int((self.mark == m).sum()) for m in Mark}
 
 
-def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> Work[Look]:
+def look(judged: JudgedScene, ask: Ask) -> Work[Look]:
     """Trace a scene with a student's function, and judge every pixel.
 
     Parameters
@@ -74,15 +74,13 @@ def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> W
     ask : callable
         Takes origins (p, 3), directions (p, 3), triangles (p, 3, 3); returns t (p,) and
         barycentrics (p, 3).
-    clock : callable, optional
-        Tells the seconds that the function itself has taken so far.
 
     Raises
     ------
     StudentError
         If the function fails.
     """
-    began, count = clock(), len(judged.t)
+    count = len(judged.t)
     # The true triangle is said to be hit; a pair raises.
     reported, raised = np.zeros((2, count), bool)
     hits = judged.planes.take(np.arange(count))
@@ -95,7 +93,7 @@ def look(judged: JudgedScene, ask: Ask, clock: Callable[[], float] = float) -> W
         reported[pixel[true]] = True
         keep_nearest(hits, None, pixel, Hits.of(t[hit], instance, triangle, s[hit].T))
         yield Progress(done / len(judged.pairs))
-    return _judged(judged, hits, reported, raised, clock() - began)
+    return _judged(judged, hits, reported, raised)
 
 
 def in_scenes(looks: Sequence[Look]) -> Fault:
@@ -107,13 +105,7 @@ def in_scenes(looks: Sequence[Look]) -> Fault:
     return Fault(f"{UNRECOGNISED}pixels", text, sum(wrong.values()))
 
 
-def _judged(
-    judged: JudgedScene,
-    hits: Hits,
-    reported: Bools,
-    raised: Bools,
-    seconds: float,
-) -> Look:
+def _judged(judged: JudgedScene, hits: Hits, reported: Bools, raised: Bools) -> Look:
     differs = (hits.instance != judged.instance) | (hits.triangle != judged.triangle)
     wrong = differs & ~judged.ties.may_see(judged.chosen, hits.instance, hits.triangle) | raised
     missed = ~reported & (judged.triangle != NOTHING)
@@ -140,7 +132,7 @@ def _judged(
     tally = Tally.of(on_triangle, judged.boundary & ~raised, parts, TRIANGLE.weights)
     color = shading.colors(judged.scene, hits).reshape(judged.color.shape)
     mark = mark.reshape(judged.shape)
-    return Look(judged, hits, color, mark, int(wrong.sum()), tally, seconds)
+    return Look(judged, hits, color, mark, int(wrong.sum()), tally)
 
 
 def _held(judged: JudgedScene, hits: Hits) -> tuple[Bools, Bools, Bools]:

@@ -40,8 +40,7 @@ def of_faces(
     vertices: Floats,
     corners: Index,
     sizes: Index,
-    names: Collection[str],
-    objects: Index | None = None,
+    objects: Iterable[tuple[str, int]],
     notes: Iterable[str] = (),
     missing: Iterable[str] = (),
 ) -> Contents:
@@ -54,10 +53,9 @@ def of_faces(
         The indices of vertices of all faces, one face after the other.
     sizes : (f,) int
         The number of corners of each face.
-    names : (o,) str
-        The objects' names.
-    objects : (f,) int, optional
-        Which object each face is of; by default all are the first's.
+    objects : (o,) of str and int
+        The name of an object, and how many faces are its own: of the first faces, of the next ones,
+        and so on. Those of one name are one object.
     notes, missing : (n,) str
         As of `Contents`.
 
@@ -73,8 +71,10 @@ def of_faces(
             f"face {face} names vertex {corners[wrong[0]]} of {len(vertices)}, counted from 0"
         )
     parts = cut(vertices, corners, sizes)
-    owners = np.zeros(len(parts.faces), np.intp) if objects is None else objects[parts.faces]
-    placed = tuple(_placed(vertices, parts.triangles, owners, names))
+    names, counts = zip(*objects, strict=True)
+    numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
+    owners = np.repeat([numbers[name] for name in names], counts)[parts.faces]
+    placed = tuple(_placed(vertices, parts.triangles, owners, numbers))
     return Contents(placed, (*notes, *parts.notes), (*missing, *parts.missing))
 
 

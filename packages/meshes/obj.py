@@ -66,13 +66,9 @@ def read(path: Path) -> Contents:
     indices = _indices(in_lines(integers, corners, sizes, faces), sizes, faces, vertices)
     objects, groups = named.values()
     starts, names = zip(*(objects if len(objects) > 1 else groups), strict=True)
-    known = {name: number for number, name in enumerate(dict.fromkeys(names))}
-    counts = np.diff([*np.searchsorted(faces, starts), len(faces)])
-    owners = np.repeat([known[name] for name in names], counts)
+    own = zip(names, np.diff([*np.searchsorted(faces, starts), len(faces)]), strict=True)
     notes = _notes(other, weights, [name for _, name in objects[1:]])
-    return of_faces(
-        points, indices, np.array(sizes, np.intp), known, owners, notes, _missing(other)
-    )
+    return of_faces(points, indices, np.array(sizes, np.intp), own, notes, _missing(other))
 
 
 def _check_vertex(line: int, words: list[bytes]) -> None:

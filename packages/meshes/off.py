@@ -72,8 +72,8 @@ def read(path: Path) -> Contents:
         points,
         in_lines(integers, words, sizes.tolist(), numbers),
         sizes,
-        [path.stem],
-        notes=[note for note, count in said.items() if count],
+        [(path.stem, face_count)],
+        [note for note, count in said.items() if count],
     )
 
 

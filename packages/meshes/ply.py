@@ -56,8 +56,8 @@ def read(path: Path) -> Contents:
     if behind:
         said = count_of(behind, "byte behind the last row is", "bytes behind the last row are")
         notes.append(f"{said} not understood, and left out")
-    faces = np.concatenate(corners), np.concatenate(sizes)
-    return of_faces(vertices, *faces, [path.stem], notes=notes)
+    every = np.concatenate(sizes)
+    return of_faces(vertices, np.concatenate(corners), every, [(path.stem, len(every))], notes)
 
 
 def _elements(path: Path) -> tuple[Any, int]:

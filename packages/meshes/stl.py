@@ -55,7 +55,7 @@ def read(path: Path) -> Contents:
     found = load_stl_binary(BytesIO(content[:long]))
     vertices = found.get("vertices", np.zeros((0, 3), np.float32))
     sizes = np.full(len(vertices) // 3, 3)
-    return of_faces(vertices, np.arange(len(vertices)), sizes, [path.stem], notes=notes)
+    return of_faces(vertices, np.arange(len(vertices)), sizes, [(path.stem, len(sizes))], notes)
 
 
 def _of_text(content: bytes, stem: str) -> Contents:
@@ -66,10 +66,8 @@ def _of_text(content: bytes, stem: str) -> Contents:
     facets = _FACET.findall(content)
     vertices = [v for facet in facets for v in re.findall(_VERTEX, facet, re.IGNORECASE)]
     numbers = floats([word for vertex in vertices for word in vertex]).reshape(-1, 3)
-    names: dict[str, int] = {}
     own = [
-        names.setdefault(name.decode("utf-8", "replace") or stem, len(names)) for name, _ in solids
+        (name.decode("utf-8", "replace") or stem, inside.count(b"\0")) for name, inside in solids
     ]
-    owners = np.repeat(np.array(own, np.intp), [inside.count(b"\0") for _, inside in solids])
     sizes = np.array([len(facet.split()) // 4 for facet in facets], np.intp)
-    return of_faces(numbers, np.arange(len(numbers)), sizes, names, owners)
+    return of_faces(numbers, np.arange(len(numbers)), sizes, own)

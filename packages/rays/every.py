@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 from reference_tracer.arrays import Bools, Bytes, Floats, Index, Places, parts, run_starts
 from reference_tracer.certainty import Certainty
-from reference_tracer.certified import many
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.arithmetic import sound_steps
 from reference_tracer.certified.decisions import Decisions
@@ -129,7 +128,8 @@ def _in_order(hits: Crossings, rays: Rays, surfaces: Surfaces, surface: Index) -
     follows[run_starts(hits.ray, hits.t + 0.0)] = False  # -0 is 0
     some = np.flatnonzero(follows | np.append(follows[1:], False))
     batch, *pairs = surfaces.integers(rays, hits.ray[some], surface[some])
-    met: dict[Any, Any] = dict(zip(some.tolist(), many.hits(batch, *pairs), strict=True))
+    hit_of = map(batch.hit, *(v.tolist() for v in pairs))
+    met: dict[Any, Any] = dict(zip(some.tolist(), hit_of, strict=True))
     ray = hits.ray.tolist()
     rank = cmp_to_key(lambda a, b: ray[a] - ray[b] or sign_of_difference(met[a], met[b]))
     order = np.arange(len(hits))

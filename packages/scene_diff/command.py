@@ -38,14 +38,7 @@ class Side:
 
 def add(parser: Parser) -> None:
     """Add the command's options."""
-
-    def run(given: Namespace) -> int:
-        paths = given.scene, given.other
-        if not any(path.suffix.lower() in mesh_formats() for path in paths):
-            refuse(given, ("up",), "is for meshes: in a scene Z is up")
-        return diff(*paths, given.up, given.json)
-
-    parser.runs(run, "reftrace diff scene.blend export.glb", EXIT_CODES_HELP)
+    parser.runs(diff, "reftrace diff scene.blend export.glb", EXIT_CODES_HELP)
     parser.add_scene(f"what is right: {SOURCES}")
     parser.add_argument("other", type=Path, metavar="OTHER", help="what is held against it")
     add_named(parser, "--set", (UP,))
@@ -57,12 +50,14 @@ def add(parser: Parser) -> None:
     )
 
 
-def diff(scene: Path, other: Path, up: str | None, out: Path | None) -> int:
+def diff(given: Namespace) -> int:
     """Print how the second scene differs from the first; return whether it does."""
-    paths = scene, other
+    paths = given.scene, given.other
+    if not any(path.suffix.lower() in mesh_formats() for path in paths):
+        refuse(given, ("up",), "is for meshes: in a scene Z is up")
     for path in paths:
         check_kind(path)
-    first, second = (side(path, up) for path in paths)
+    first, second = (side(path, given.up) for path in paths)
     found = differences(first.scene, second.scene, first.variants)
     show(*first.remarks, *second.remarks)
     for difference in found:
@@ -70,9 +65,9 @@ def diff(scene: Path, other: Path, up: str | None, out: Path | None) -> int:
     counts = [count_of(len(shapes_of(s.scene)), "object") for s in (first, second)]
     how = count_of(len(found), "difference") if found else "the same"
     show(f"{counts[0]} and {counts[1]}: {how}")
-    if out:
+    if given.json:
         content = {"schema": SCHEMA, "differences": [d.to_dict() for d in found]}
-        folders.write_text(out, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
+        folders.write_text(given.json, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
     return DIFFERENCES if found else AGREE
 
 

@@ -35,7 +35,7 @@ def add(parser: Parser) -> None:
         type=parser.path_ending(".npz"),
         metavar="FILE.npz",
         help="the file to write: seen (0 hidden, 1 seen, 2 undecided), witness and area of each "
-        "face; FILE.json beside it has the counts of each object",
+        "face; FILE.json beside it has each object's counts, and each frame's camera",
     )
     parser.add_argument(
         "--limit",

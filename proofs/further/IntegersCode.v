@@ -1,5 +1,5 @@
 (** What the code computes and decides in integers is what Integers.v, Clip.v, Ties.v, Hits.v and
-    Contest.v say: `exact.py`, `many.py`, `ties.py`, `order.py`, recorded as whole functions, all
+    Contest.v say: `exact.py`, `ties.py`, `order.py`, recorded as whole functions, all
     branches included ([RecordedIntegers]). Those files were written by hand from the Python; here a machine
     has compared the two. *)
 Require Import ZArith Reals List Bool Lia.
@@ -147,47 +147,6 @@ Proof.
   generalize (_sign e1 m1 s1 d moves) (_sign e2 m2 s2 d moves) (_sign e3 m3 s3 d moves).
   intros x y z. cbn [existsb forallb]. rewrite !(Z.eqb_sym 0).
   three x; three y; three z; destruct (e1 =? 0), (e2 =? 0), (e3 =? 0); reflexivity.
-Qed.
-
-(** * [many.hits], which leaves out many pairs at once *)
-Section Many.
-Variables (found : option Hit) (d o a b c : Integers).
-Notation of_pair f := (f found (ix d) (iy d) (iz d) (ix o) (iy o) (iz o) (ix a) (iy a) (iz a)
-  (ix b) (iy b) (iz b) (ix c) (iy c) (iz c)).
-(** What is found is kept, but for exactly those pairs that miss before the clip range is looked at. *)
-Definition kept := match Integers.hit d o a b c with None => None | Some _ => found end.
-Lemma kept_by_signs e1 e2 e3 : let e p q := _dot d (_cross (_sub p o) (_sub q o)) in
-  e1 = e a b -> e2 = e b c -> e3 = e c a ->
-  kept = if (min_ [e1; e2; e3] <? 0) && (0 <? max_ [e1; e2; e3]) then None else found.
-Proof.
-  cbv zeta. intros -> -> ->. unfold kept, Integers.hit, _triangle; cbn [map].
-  destruct (_ && _); reflexivity.
-Qed.
-(** Each edge function is the same number, be it another expression; then all ways are followed. *)
-Ltac signs :=
-  repeat match goal with |- context [if ?e <? 0 then _ else _] =>
-    assert_fails (is_var e); remember e eqn:? end;
-  match goal with A : ?x = _, B : ?y = _, C : ?z = _ |- _ => rewrite (kept_by_signs x y z);
-    [clear A B C | subst; unfold _dot, _cross, _sub; cbn [ix iy iz]; ring ..] end;
-  cbn [min_ max_ fold_right];
-  repeat match goal with |- context [?x <? ?y] => destruct (Z.ltb_spec x y) end;
-  reflexivity || (exfalso; lia).
-Theorem many_from_point_is : of_pair whole_many_from_point = kept.
-Proof. unfold whole_many_from_point. signs. Qed.
-Theorem many_parallel_is : of_pair whole_many_parallel = kept.
-Proof. unfold whole_many_parallel. signs. Qed.
-(** Rays that share nothing are looked at one by one, and so are planes. *)
-Theorem many_alone_is : of_pair whole_many_alone = found.
-Proof. reflexivity. Qed.
-Theorem many_plane_is : of_pair whole_many_plane = found.
-Proof. reflexivity. Qed.
-End Many.
-(** So the hits of many pairs, within the clip range, are those of the pairs one by one. *)
-Theorem many_hits_are i batch s x : Contest.shape_of s = Contest.Triangular x ->
-  let L := integers_of (lengths batch) in let found := code_hit i batch s in
-  kept found (direction_in i batch) (origin_in i batch) (L (ca x)) (L (cb x)) (L (cc x)) = found.
-Proof.
-  intros S. unfold kept, code_hit, line_hit. rewrite S. destruct (Integers.hit _ _ _ _ _); reflexivity.
 Qed.
 
 (** [IntegerBatch.of_first_ray] *)

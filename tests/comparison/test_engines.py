@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from reference_tracer.comparison import engines
-from reference_tracer.comparison.comparing import compare
+from reference_tracer.comparison.comparing import compare, trace_and_compare
 from reference_tracer.comparison.engines import EngineRow
 from reference_tracer.comparison.verdict import Verdict
 from reference_tracer.diagnosis.faults import EXAMPLES
@@ -77,7 +77,7 @@ def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room)
     shown = replace(shown, drawn=DrawnOver(drawn, beneath))
     glass = Unmodelled("Pane", "transparency", effect=Effect.NONE)
     case = case_of(room, shown, [glass, Unmodelled("Head", "hair")], self_check=True)
-    row = EngineRow.of(result_of(compare(case, frame)))
+    row = EngineRow.of(result_of(trace_and_compare(case)))
     assert len(row.wrong) == 10
     for w in row.wrong:
         assert (w["why"], w["beneath"]) == ("hair of 'Head' changes the pixel", "hair of 'Head'")

@@ -28,7 +28,7 @@ ENOUGH = Limits(seconds=3600)  # half of which may go by, also on a busy machine
 def program(written, text, arguments="{rays} {answers}", exchange="csv", limits=None):
     path = written("import sys\n" + text, "program.py")
     command = f"{PYTHON} {shlex.quote(str(path))} {arguments}"
-    return Program(Run.parsed(command, exchange), FORM, limits)
+    return Program(Run(command, exchange), FORM, limits)
 
 
 ECHO = """
@@ -104,7 +104,7 @@ def test_what_it_does_wrong_is_its_own_error(name, written):
 
 def test_one_that_is_not_there(tmp_path):
     with pytest.raises(StudentError):
-        Program(Run.parsed(str(tmp_path / "nothing")), FORM).ask(*RAYS)
+        Program(Run(str(tmp_path / "nothing")), FORM).ask(*RAYS)
 
 
 def test_one_that_never_ends_is_ended_with_all_that_it_started(written):
@@ -134,7 +134,7 @@ with np.errstate(all="ignore"):
 np.savetxt(sys.argv[2], np.column_stack((t, s)), fmt="%.17g", delimiter=",")
 """
     path = written("import sys\n" + wrong + bridge, "bridge.py")
-    run = Run.parsed(f"{PYTHON} {path} {{rays}} {{answers}}")
+    run = Run(f"{PYTHON} {path} {{rays}} {{answers}}")
     other = result_of(judge(run, checks, []))
     assert [f.name for f in other.faults] == [f.name for f in file.faults] == ["t_sign"]
     assert other.score == file.score and other.checks == file.checks
@@ -158,7 +158,7 @@ def test_a_program_that_dies_keeps_what_the_rest_of_its_answers_earns(
     run = Program._run
     monkeypatch.setattr(Program, "_run", lambda *given: starts.append(1) or run(*given))
     command = f"{PYTHON} {written(no_guard + BY_LINES)}"
-    run_as = Run.parsed(f"{command} {{rays}} {{answers}}")
+    run_as = Run(f"{command} {{rays}} {{answers}}")
     found = result_of(judge(run_as, checks, limits=ENOUGH))
     [fault] = found.faults
     assert (fault.name, found.verdict, found.errors) == ("raises", "wrong", [])
@@ -208,7 +208,7 @@ def test_a_program_has_the_name_of_its_authors_folder_or_file(tmp_path):
         f"node --max={tmp_path / 'bob' / 'ray.js'} {{rays}}": "bob/ray.js",
         "nothing of this -is there": "nothing of this -is there",
     }
-    assert names([Run.parsed(command) for command in commands]) == list(commands.values())
+    assert names([Run(command) for command in commands]) == list(commands.values())
 
 
 @pytest.mark.parametrize(
@@ -278,13 +278,13 @@ open(sys.argv[2], "w").write("%d,%d,0,0\\n" % seen * 5)
             hidden = f"$(echo {secret.name})"  # a word that names no file: else it would be shown
             python = Path(sys.executable).resolve()  # not the link of a clone that lies in /tmp
             command = f"sh -c '{python} {own.name} {{rays}} {{answers}} {hidden}' {own.name}"
-            t, s = Program(Run.parsed(command, "csv"), FORM).ask(*RAYS)
+            t, s = Program(Run(command, "csv"), FORM).ask(*RAYS)
     assert t[0] == 1 and s[0, 0] == (not sandbox())
 
 
 def test_two_of_one_name_are_two(written):
     path = written("pass", "same.py")
-    assert names([path, Run.parsed("same.py"), Run.parsed("same.py")]) == [
+    assert names([path, Run("same.py"), Run("same.py")]) == [
         "same.py",
         "same.py (2)",
         "same.py (3)",

@@ -50,6 +50,6 @@ def test_an_example_is_right(name, tmp_path):
         pytest.skip(f"no {words[0]} here")
     subprocess.run(words, check=True)
     command = run.format(**own, rays="{rays}", answers="{answers}")
-    found = result_of(judge(Run.parsed(command, exchange), subject(asked).cases()))
+    found = result_of(judge(Run(command, exchange), subject(asked).cases()))
     assert found.errors == [] and found.faults == []
     assert found.verdict == "right" and found.score == 100

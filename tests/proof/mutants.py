@@ -221,15 +221,6 @@ _TABLE = {
                 ("zeros are shifted otherwise", "exponent[zero] = least", "exponent[zero] = 0"),
             )
         ),
-        *(
-            (what, "certified/many.py", old, new)
-            for what, old, new in (
-                ("one edge function of one sign is a miss", "low & high", "low | high"),
-                ("an edge function of zero is negative", "low |= e < 0", "low |= e <= 0"),
-                ("an edge is turned round", "(c, a)]", "(a, c)]"),
-                ("the origin has another sign", "v, normals = -o", "v, normals = o"),
-            )
-        ),
     ),
     # The checker of certificates.
     "checker": tuple(

@@ -12,9 +12,6 @@ import ast
 import pytest
 from recorder.nodes import RefusedError
 from recorder.records import RECORDS, recorded
-from recorder.records.integers import CORNERS, batch
-from recorder.records.many import found
-from recorder.whole import tree, whole
 from reference_tracer.certified import bounds
 
 from .constants import FOLDER
@@ -40,7 +37,6 @@ LISTED = {
         "sum(edges)": "of three integers: any order is right",
     },
     "certified/exact.py IntegerBatch.of_first_ray": {"surface < len(self.planes)": KIND},
-    "certified/many.py _miss": dict.fromkeys(("o.shape[1] == 1", "d.shape[1] == 1"), BATCH),
     "certified/measures.py Prepared.meet": {"len(self._edges.T)": EMPTY},
     "certified/sweep/depth_buffer.py DepthBuffer.enter": {"len(pixel) or not fragments": EMPTY},
     "certified/sweep/edge_functions.py set_up": {"len(unsure)": EMPTY},
@@ -90,26 +86,6 @@ def test_nearly_all_results_of_a_ray_and_a_surface_are_as_many_as_the_columns():
         for _, value in recorded(record, record.values, 3)
     )
     assert wide > 200
-
-
-@pytest.mark.parametrize("shared", ["origins", "directions"])
-@pytest.mark.parametrize("own", range(3))
-def test_a_pair_of_three_is_left_out_as_it_is_alone(shared, own):
-    """Its ray, number `own`, and the next triangle are recorded; all else are numbers."""
-
-    def among(names, *others):
-        return [*others[:own], whole(names), *others[own:]]
-
-    of = {
-        "origins": among("r1 r2 r3", (2, 3, -1), (-4, 1, 6)),
-        "directions": among("r1 r2 r3", (1, -1, 8), (0, 2, 9)),
-        "corners": [among(names, (9, k, 2), (k, -8, 3)) for k, names in enumerate(CORNERS[1:])],
-    }
-    of["corners"] = [corners[-1:] + corners[:-1] for corners in of["corners"]]
-    of[shared] = [(5, -7, 11)]
-    alone = tree(lambda: found(batch(**of), [own], [(own + 1) % 3]))
-    of_three = tree(lambda: found(batch(**of), [1, 2, 0], [2, 0, 1], (own + 2) % 3))
-    assert alone == of_three != "found"
 
 
 def test_another_expression_in_some_column_is_refused(monkeypatch):

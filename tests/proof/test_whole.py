@@ -105,8 +105,8 @@ LEFT_OUT = {
     },
     "sweep/sweep.py": {
         CALLS: "sweep Sweep.__init__ Sweep.steps Sweep._instances Sweep._keep "
-        "Sweep._make_room Sweep.enter Sweep._enter_triangles Sweep._enter_functions "
-        "Sweep.pairs _FullError.__init__",
+        "Sweep._make_room Sweep.enter Sweep._enter_triangles "
+        "_FullError.__init__",
     },
     "sweep/resolve.py": {CALLS: "Resolver.steps Resolver._enter_open Resolver._decide"},
 }

@@ -8,7 +8,7 @@ from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.visible.faces import Faces
 from reference_tracer.visible.hiding import patches
-from reference_tracer.visible.polygons import middles
+from reference_tracer.visible.polygons import cut, middles
 
 from .test_visible import ORTHOGRAPHIC, camera, scene_of, triangles
 
@@ -63,3 +63,14 @@ def test_joined_faces_cover_a_box_but_none_with_a_hole():
     assert not (missed.any(axis=0) & covered).any()
     assert (covered & (size.min(axis=0) > 1)).any() and (missed.any(axis=0) & ~covered).any()
     assert (found[covered] <= -4).all() and (found[covered] > -4.001).all()
+
+
+def test_what_is_cut_by_a_function_that_overflows_is_left():
+    """It is not known where it is cut: so the corner that is not surely cut off stays."""
+    random = np.random.default_rng(0)
+    polygons = random.normal(size=(3, 2, 3))
+    value = np.array([[np.inf, np.nan, 1.0], [-1.0, -1.0, -1.0], [-1.0, -1.0, -1.0]])
+    with np.errstate(all="ignore"):
+        left = cut(polygons, value)
+    assert (left == polygons[0]).all(axis=1).any(axis=0).all()
+    assert np.isnan(cut(polygons, -np.ones((3, 3)))).all()

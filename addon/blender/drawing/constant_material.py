@@ -8,8 +8,7 @@ own. The temporary scene has no world: one may hold a fog.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from contextlib import contextmanager
+from collections.abc import Collection
 from typing import Any, NamedTuple
 
 import bpy
@@ -29,8 +28,7 @@ _OF_MESH = "data.materials[{}].diffuse_color"  # what geometry nodes gave to it
 _OF_OBJECT = "material_slots[{}].material.diffuse_color"
 
 
-@contextmanager
-def constant_colors(scene: Scene, depsgraph: Depsgraph) -> Iterator[None]:
+def constant_colors(scene: Scene, depsgraph: Depsgraph) -> None:
     """Have an engine with materials draw a temporary scene's evaluation in constant colours.
 
     Raises
@@ -53,7 +51,6 @@ def constant_colors(scene: Scene, depsgraph: Depsgraph) -> Iterator[None]:
     [layer] = scene.view_layers
     layer.use_solid = True
     layer.material_override = material
-    yield
 
 
 def check_slots(scene: Traced, color_type: str) -> None:

@@ -136,7 +136,9 @@ def _set_up(judge: Judge, scene: Scene, depsgraph: Depsgraph) -> AbstractContext
     """Have a judge draw an evaluation in constant colours, for a while."""
     if judge.set_up:
         return judge.set_up(scene, depsgraph)
-    return nullcontext() if judge.solid else constant_colors(scene, depsgraph)
+    if not judge.solid:
+        constant_colors(scene, depsgraph)
+    return nullcontext()
 
 
 def drawn_once(scene: Scene, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:

@@ -1,9 +1,8 @@
 """Finds what the camera sees of the open file: objects, and the faces of some meshes.
 
 Faces are decided as a render has them. An attribute says which face of the user's mesh each comes
-from: it goes through the modifiers on a copy of the object. Of n faces, each has a code below 2^31
-whose first part is its number and whose rest is random: what a modifier mixes of several faces is
-taken for one of them with a chance of n / 2^31.
+from: it goes through the modifiers on a copy of the object. Each of n faces has a random code below
+2^31: what a modifier mixes of several is taken for one of them with a chance of n / 2^31.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from ...visible import steps
 from ..evaluating import evaluated, export_for_render
 from ..reading.camera import export_camera
 from ..reading.export import export
-from ..temporary import HIDDEN_FACES, everything, made_for, temporary_scene
+from ..temporary import HIDDEN_FACES, everything, leave_out, made_for, temporary_scene
 from ..turns import once
 from ..values import values_restored
 from .stepping import stepped
@@ -71,12 +70,13 @@ def look(context: Any, meshes: Collection[Any], frames: Sequence[int]) -> Work[C
         obj.update_from_editmode()
         unsure = MAY_BE * obj.reference_tracer.infinite_plane  # which has no faces
         found.faces[obj.data] = np.full(len(obj.data.polygons), unsure, np.uint8)
-    if not frames:
+    if frames:
+        with values_restored():
+            for number, frame in enumerate(stepped(scene, frames)):
+                work = _look(scene, layer, own, found)
+                yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
+    else:
         yield from _look(scene, layer, own, found)
-    with values_restored():
-        for number, frame in enumerate(stepped(scene, [*frames])):
-            work = _look(scene, layer, own, found)
-            yield from scaled(work, number / len(frames), 1 / len(frames), f"frame {frame}")
     if not found.objects:
         raise SceneError(f"Scene '{scene.name}' shows no faces")
     return found
@@ -127,9 +127,7 @@ def _codes(tmp: Any, own: Mapping[str, Any]) -> dict[tuple[str, bytes], Integers
     They are found by the object's name and the mesh's triangles: shape keys and simulations move
     points. The temporary scene has copies of the objects then, and nothing else.
     """
-    for items in (tmp.collection.children, tmp.collection.objects):
-        for item in items[:]:
-            items.unlink(item)
+    leave_out(tmp, {*tmp.objects})
     coded = {obj.data: made_for(tmp, obj.data.copy()) for obj in own.values()}
     for mesh in coded.values():
         attribute = mesh.attributes.new(_CODE, "INT", "FACE")
@@ -156,7 +154,6 @@ def _codes(tmp: Any, own: Mapping[str, Any]) -> dict[tuple[str, bytes], Integers
 
 
 def _codes_of(count: int) -> Integers:
-    """Return the codes of so many faces, (n,) int32, the least first; 0 is none."""
-    part = _CODES // (count + 1)
-    codes = (1 + np.arange(count)) * part + np.random.default_rng(0).integers(0, part, count)
-    return codes.astype(np.int32)
+    """Return different codes of so many faces, (n,) int32, in order; 0 is none."""
+    codes = np.random.default_rng(0).choice(_CODES - 1, count, replace=False)
+    return (1 + np.sort(codes)).astype(np.int32)

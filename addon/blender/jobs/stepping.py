@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import bpy
@@ -12,7 +12,7 @@ _SIMULATED = {"CLOTH", "DYNAMIC_PAINT", "FLUID", "PARTICLE_SYSTEM", "SOFT_BODY"}
 _ZONE = "GeometryNodeSimulationOutput"
 
 
-def visited(scene: Scene, frames: list[int]) -> Iterable[int]:
+def visited(scene: Scene, frames: Sequence[int]) -> Sequence[int]:
     """Return the frames to step through, in order, so that some sorted ones are as when played."""
     modifiers = (m.type in _SIMULATED for o in bpy.data.objects for m in o.modifiers)
     nodes = (n.bl_idname == _ZONE for tree in bpy.data.node_groups for n in tree.nodes)
@@ -21,7 +21,7 @@ def visited(scene: Scene, frames: list[int]) -> Iterable[int]:
     return frames
 
 
-def stepped(scene: Scene, frames: list[int]) -> Iterator[int]:
+def stepped(scene: Scene, frames: Sequence[int]) -> Iterator[int]:
     """Yield each of some sorted frames once the scene is there; it goes back in the end."""
     with frame_restored(scene):
         for frame in visited(scene, frames):

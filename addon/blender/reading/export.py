@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object, ViewLayer
 
-from ...arrays import Colors, Floats
+from ...arrays import Colors, Floats, parts
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
 from ..temporary import HIDDEN_FACES, NOT_DRAWN, ignored_features, is_whole, user_scene
@@ -30,6 +30,7 @@ from .view_volume import outside
 from .visible import Seen, Shown, visible
 
 NO_SURFACE = (*NOT_DRAWN, "EMPTY")
+_TOGETHER = 1 << 15  # boxes that are looked at: some 30 MB
 
 
 def export(
@@ -149,7 +150,8 @@ def _outside(camera: Camera, shown: list[Shown], meshes: dict[int, Read]) -> set
         return set()
     bounds = np.stack([mesh.bounds for mesh in whole.values()], axis=-1)
     matrices = np.stack([shown[n].matrix for n in whole], axis=-1)
-    out = outside(camera, bounds, matrices)
+    some = parts(len(whole), _TOGETHER)
+    out = np.concatenate([outside(camera, bounds[..., k], matrices[..., k]) for k in some])
     return {n for n, is_out in zip(whole, out, strict=True) if is_out}
 
 

@@ -118,7 +118,7 @@ class LongWork(Mixin):
         raise NotImplementedError
 
     def show(self, context: Context, result: Any) -> Work[None]:
-        """Show a result that is there before the end."""
+        """Show a result: the last one, and each that is there before the end."""
         yield from ()
 
     def finish(self, context: Context, result: Any) -> tuple[str, str]:
@@ -168,6 +168,7 @@ class LongWork(Mixin):
                     yield from self.show(context, event.result)
                 else:
                     yield event
+            yield from self.show(context, result)
         level, text = self.finish(context, result)
         redraw(context)
         kind: Any = {level}

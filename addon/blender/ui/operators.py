@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty
 from bpy.types import Context
 
-from ...tracer.progress import Found, Work
+from ...tracer.progress import Work
 from ...wording import capital, say
 from ..drawing.judges import OF_ONE_FRAME, STILLS
 from . import blocks, results
@@ -36,9 +36,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         """Have Blender draw the scene, and compare."""
         from ..jobs.compare import compare_open_file
 
-        comparison = yield from compare_open_file(context, self.folder())
-        yield Found(comparison)
-        return comparison
+        return compare_open_file(context, self.folder())
 
     def show(self, context: Context, result: Any) -> Work[None]:
         """Keep a comparison, and show the user the traced picture, once."""

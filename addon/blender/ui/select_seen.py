@@ -65,27 +65,28 @@ class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Select, store the attribute, and say what is seen."""
-        from collections import Counter
+        import numpy as np
 
         from ..jobs.faces import select_faces, store
-        from ..jobs.seen import HIDDEN, MAY_BE, SEEN, STATES
+        from ..jobs.seen import HIDDEN, SEEN, STATES
 
         wanted = HIDDEN if self.hidden else SEEN
         for mesh, ranks in result.faces.items() if self.attribute else ():
             store(mesh, NAME, STATES[ranks])
         if context.mode == "OBJECT":
             said = rpt_("{} objects seen, {} hidden, {} undecided")
-            count = Counter(result.objects.values())
+            every = np.array([*result.objects.values()])
             for obj in context.view_layer.objects:
                 obj.select_set(result.objects.get(obj.name_full) == wanted)
         else:
             said = rpt_("{} faces seen, {} hidden, {} undecided")
-            count = Counter(rank for ranks in result.faces.values() for rank in ranks.tolist())
+            every = np.concatenate([*result.faces.values()])
             bpy.ops.mesh.select_mode(type="FACE")
             for mesh, ranks in result.faces.items():
                 select_faces(mesh, ranks == wanted)
-        text = said.format(count[SEEN], count[HIDDEN], count[MAY_BE])
-        return "WARNING" if result.notes else "INFO", "; ".join((text, *result.notes))
+        hidden, undecided, seen = np.bincount(every, minlength=3)
+        text = "; ".join((said.format(seen, hidden, undecided), *result.notes))
+        return "WARNING" if result.notes else "INFO", text
 
 
 class REFERENCE_TRACER_MT_select_seen(bpy.types.Menu):

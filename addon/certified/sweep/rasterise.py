@@ -58,12 +58,13 @@ class Covered(Arrays):
 
 
 def rasterised(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Iterator[Covered]:
-    """Yield the pairs of boxes that are no larger than a FINE cell."""
-    size = boxes.size
-    for longest in np.unique(size).tolist():  # boxes that are evaluated together are of one size
-        own = np.flatnonzero(size == longest)
-        for part in parts(len(own), max(1, _VALUES // (longest + 1) ** 2)):
-            yield _block(found, boxes.take(own[part]), depths)
+    """Yield the pairs of boxes, in small steps."""
+    for some in split(found, boxes, depths):
+        size = some.size
+        for longest in np.unique(size).tolist():  # those evaluated together are of one size
+            own = np.flatnonzero(size == longest)
+            for part in parts(len(own), max(1, _VALUES // (longest + 1) ** 2)):
+                yield _block(found, some.take(own[part]), depths)
 
 
 def _block(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Covered:

@@ -7,7 +7,6 @@ nearest. `resolve.py` decides which of them is. Theorem: `Sweep.sweep_sees_what_
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -24,14 +23,13 @@ from .boxes import Boxed, InstanceBoxes, boxes_of
 from .chunks import Chunk, Names, Numbering, chunks, expand
 from .depth_bins import by_depth
 from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments, nearness
-from .edge_functions import EdgeFunctions, set_up
+from .edge_functions import set_up
 from .film import Film
-from .rasterise import Boxes, Covered, rasterised, split
+from .rasterise import Boxes, Covered, rasterised
 from .resolve import Resolver
 from .small_triangles import SmallTriangles
 
-_TRIANGLES = 1 << 17  # triangles tested against the depth buffer together
-_SET_UP = 1 << 14  # triangles set up together
+_TRIANGLES = 1 << 15  # triangles that are tested against the depth buffer, and set up, together
 _FRAGMENTS = 1 << 10  # fragments for which there is always room
 _PIXELS = 1 << 15  # pixels of a plane at a time
 _PAIRS = 1 << 15  # pairs entered into the depth buffer together
@@ -181,12 +179,6 @@ class Sweep:
         """Sweep those of some triangles of a chunk that the depth buffer does not hide."""
         low, high = boxed.in_region(some)
         some = gather(some, self.not_hidden(low, high, gather(boxed.nearest, some)))
-        yield None
-        for part in parts(len(some), _SET_UP):
-            yield from self._enter_functions(boxed, some[part])
-
-    def _enter_functions(self, boxed: Boxed, some: Index) -> Work[None]:
-        """Set up some triangles, and sweep the pixels that they may cover."""
         expanded = boxed.expanded
         origin = gather(boxed.low, some)
         reach = np.maximum(*(gather(boxed.high, some) - origin)) + 1.0
@@ -197,18 +189,13 @@ class Sweep:
         low, high = boxed.in_region(of)
         boxes = Boxes(np.arange(len(of)), low, high)
         yield None
-        for pairs in Covered.together(self.pairs(found, boxes), _PAIRS):
+        for pairs in Covered.together(rasterised(found, boxes, self._depths), _PAIRS):
             self._keep(self.of_pairs(pairs, boxed.first + gather(of, pairs.owner)))
             yield None
 
     def not_hidden(self, low: Index, high: Index, nearest: Floats) -> Index:
         """Return which boxes the depth buffer does not surely hide; it knows about small boxes."""
         return np.flatnonzero(~(nearest < self._depths.farthest_in(low, high)))
-
-    def pairs(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
-        """Rasterise boxes, in small steps."""
-        for some in split(found, boxes, self._depths):
-            yield from rasterised(found, some, self._depths)
 
     def of_pairs(self, pairs: Covered, surface: Index) -> Fragments:
         """Enter sure hits into the depth buffer; return the fragments, and all that is not sure."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +11,7 @@ from ...arrays import Colors, Floats
 from ...causes.case import Case
 from ...causes.checks.probe import SOUND, Probe
 from ...scene import Scene
-from ...tracer.hits import NOTHING
+from ...tracer.hits import NOTHING, Hits
 from ...tracer.nearest import plan
 from ...tracer.progress import Work, result_of
 from ...tracer.shading import colors as colors_of
@@ -38,7 +38,7 @@ def _quarter_turned(case: Case, quarters: int) -> Case | None:
 _QUARTERS = {1: "90 degrees anticlockwise", 2: "180 degrees", 3: "90 degrees clockwise"}
 
 
-# Orders of drawing (painter's algorithm), each instance over those before; the first has no ranks.
+# Orders of drawing (painter's algorithm), each instance over those before.
 ORDERS = (
     "the farthest surface is seen, not the nearest",
     "objects are drawn one over the other, as they are listed",
@@ -46,41 +46,41 @@ ORDERS = (
 )
 
 
-def _ranks(scene: Scene, order: int) -> Floats | None:
-    """Return the rank of each instance, then of planes and background, which are drawn first."""
+def _ranks(scene: Scene, order: int, layer: int, hits: Hits) -> Floats:
+    """Return the rank of n hits, some layers behind the nearest: what has a higher one is seen.
+
+    Planes and the background are drawn first.
+    """
     if order == 0:
-        return None
-    listed = np.arange(len(scene.instances), dtype=np.float64)
-    of = listed if order == 1 else -listed
-    return np.concatenate((of, np.full(len(scene.planes) + 1, -np.inf)))
+        return np.full(len(hits), float(layer))
+    listed = np.arange(len(scene.instances)) * (1.0 if order == 1 else -1.0)
+    return np.append(listed, np.full(len(scene.planes) + 1, -np.inf))[hits.instance]
 
 
-def _seen(probe: Probe, ranks: Sequence[Floats | None]) -> Work[list[Colors]]:
-    """Return the colours of n pixels in some orders; without ranks, of the farthest surface."""
+def _seen(probe: Probe, orders: Iterable[int]) -> Work[list[Colors]]:
+    """Return the colours of n pixels in some orders."""
     scene = probe.scene
     hits = yield from probe.trace()
     colors = colors_of(scene, hits)
-    out = [colors.copy() for _ in ranks]
-    best = [None if of is None else of[hits.instance] for of in ranks]
-    for _ in range(LAYERS):
+    out = [(colors.copy(), _ranks(scene, order, 0, hits), order) for order in orders]
+    for layer in range(1, LAYERS + 1):
         hits = yield from probe.trace(after=hits)
-        if not (hits.instance != NOTHING).any():
+        is_hit = hits.instance != NOTHING
+        if not is_hit.any():
             break
         colors = colors_of(scene, hits)
-        for seen, rank, of in zip(out, best, ranks, strict=True):
-            over = hits.instance != NOTHING
-            if rank is not None and of is not None:
-                over &= of[hits.instance] > rank
-                rank[over] = of[hits.instance[over]]
-            seen[over] = colors[over]
-    return out
+        for seen, best, order in out:
+            rank = _ranks(scene, order, layer, hits)
+            over = is_hit & (rank > best)
+            best[over], seen[over] = rank[over], colors[over]
+    return [seen for seen, *_ in out]
 
 
 def _orders(evidence: Evidence) -> Work[list[Option]]:
     """Guess the orders with which unexplained pixels of the sample have the right colours."""
     scene = evidence.case.scene
     probe = yield from evidence.probe(scene)
-    every = yield from _seen(probe, [_ranks(scene, n) for n in range(len(ORDERS))])
+    every = yield from _seen(probe, range(len(ORDERS)))
     out = []
     for number, colors in enumerate(every):
         right = ~evidence.shown.other_color(colors)
@@ -93,14 +93,14 @@ def _orders(evidence: Evidence) -> Work[list[Option]]:
 def _drawn(traced: Colors, guess: Option, evidence: Evidence) -> Colors:
     """Draw the whole picture in another order, (h, w, 4)."""
     scene = evidence.case.scene
-    region, ranks = scene.camera.region, _ranks(scene, guess.number)
+    region = scene.camera.region
     made = result_of(plan(scene, SOUND, 0.0))
     rows = max(1, BLOCK // region.width)
     out = []
     for y in range(region.y0, region.y1, rows):
         tile = replace(region, y0=y, y1=min(y + rows, region.y1))
         probe = result_of(Probe.of(made, tile, np.ones(tile.width * tile.height, bool)))
-        [colors] = result_of(_seen(probe, [ranks]))
+        [colors] = result_of(_seen(probe, [guess.number]))
         out.append(colors.reshape(tile.height, tile.width, 4))
     return np.concatenate(out)
 

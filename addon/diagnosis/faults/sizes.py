@@ -16,13 +16,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ...arrays import Array, Colors, Floats, Places
+from ...camera_files.frame import part
 from ...causes.case import Case
 from ...causes.checks.probe import SOUND
 from ...files.images import decoded, encoded
 from ...pictures.picture import Picture
 from ...rendering import steps
-from ...scene import Region, ViewWindow
-from ...tracer.camera import pixel_size
+from ...scene import Region
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
@@ -89,15 +89,9 @@ def sampled_right(evidence: Evidence, colors: Array) -> bool:
 
 def at_size(case: Case, size: float) -> Case:
     """Return the case with its region, which may be a border's, traced at another size."""
-    camera = case.scene.camera
-    r, w = camera.region, camera.window
-    across, up = pixel_size(camera)
-    window = ViewWindow(
-        w.left + r.x0 * across, w.left + r.x1 * across, w.bottom + r.y0 * up, w.bottom + r.y1 * up
-    )
-    width, height = (max(1, round(size * n)) for n in (r.width, r.height))
-    whole = Region(0, 0, width, height)
-    camera = replace(camera, window=window, width=width, height=height, region=whole)
+    own = part(case.scene.camera)
+    width, height = (max(1, round(size * n)) for n in (own.width, own.height))
+    camera = replace(own, width=width, height=height, region=Region(0, 0, width, height))
     return case.with_scenes(lambda scene: scene.seen_by(camera))
 
 

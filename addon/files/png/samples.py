@@ -130,13 +130,10 @@ def _predicted(kinds: Bytes, left: Array, above: Array, corner: Array) -> Array:
 def _of_bytes(header: Header, lines: Bytes, width: int) -> Array:
     """Return the samples (h, w, c) of rows of bytes (7.2)."""
     shape = len(lines), width, CHANNELS[header.kind]
-    if header.depth == 16:
-        return np.ascontiguousarray(lines).view(">u2").reshape(shape)
-    if header.depth == 8:
-        return lines.reshape(shape)
+    if header.depth >= 8:
+        return np.ascontiguousarray(lines).view(f">u{header.depth // 8}").reshape(shape)
     bits = np.unpackbits(lines, axis=1).reshape(len(lines), -1, header.depth)
-    weights = (1 << np.arange(header.depth)[::-1]).astype(np.uint8)
-    return (bits[:, :width] @ weights).reshape(shape)
+    return np.packbits(bits[:, :width], axis=2).reshape(shape) >> (8 - header.depth)
 
 
 def in_channels(

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Floats, Index
+from ...camera_files.frame import pose
 from ...scene import Camera, Instance, Mesh, Scene, ViewWindow
 from ...tracer.camera import camera_rays
 
@@ -52,8 +53,9 @@ def camera(
     """
     tall = half * height / width
     window = ViewWindow(-half, half, -tall, tall)
-    place = placed(axes, eye)
-    return Camera(place, window, width, height, clip_start=1e-3 * unit, clip_end=1e3 * unit)
+    return Camera(
+        pose(axes, eye), window, width, height, clip_start=1e-3 * unit, clip_end=1e3 * unit
+    )
 
 
 def sheet(
@@ -139,7 +141,7 @@ def grid(
     return Mesh(points, lattice(columns, rows, split), name="Sheet")
 
 
-def scene(view: Camera, *meshes: Mesh, matrix: NDArray[np.float64] = UNMOVED) -> Scene:
+def scene(view: Camera, *meshes: Mesh, matrix: Floats = UNMOVED) -> Scene:
     """Return a scene with an object for each mesh, the first of them moved by a matrix."""
     instances = tuple(
         Instance(k, k, UNMOVED if k else matrix, np.array([COLORS[k % len(COLORS)]], np.float32))
@@ -148,11 +150,3 @@ def scene(view: Camera, *meshes: Mesh, matrix: NDArray[np.float64] = UNMOVED) ->
     background = np.array((0.0, 0.0, 0.0, 1.0), np.float32)
     names = tuple(mesh.name for mesh in meshes)
     return Scene(view, meshes, instances, background=background, objects=names)
-
-
-def placed(axes: Floats, at: Floats = ORIGIN) -> NDArray[np.float64]:
-    """Return the matrix of an object with these axes, as columns, at this place."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = axes
-    matrix[:3, 3] = at
-    return matrix

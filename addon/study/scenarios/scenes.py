@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Floats
+from ...camera_files.frame import pose
 from ...projections import ORTHOGRAPHIC
 from ...scene import Mesh, Scene, ViewWindow
 from ...tracer.camera import camera_rays
@@ -158,7 +159,7 @@ def far_from_origin(distance: float, width: int, height: int) -> Scene:
     """Return a sphere of radius 2, and the camera inside, far from the world's origin."""
     centre = distance * AWAY
     view = camera(width, height, 1.0, eye=centre + EYE)
-    return scene(view, sphere(2.0, 8), matrix=parts.placed(np.eye(3), centre))
+    return scene(view, sphere(2.0, 8), matrix=pose(np.eye(3), centre))
 
 
 def far_corners(distance: float, width: int, height: int) -> Scene:
@@ -201,7 +202,7 @@ def ortho_scale(size: float, width: int, height: int) -> Scene:
 
 def squashed(thickness: float, width: int, height: int) -> Scene:
     """Return a sphere from outside, mirrored and pressed flat by its object's matrix."""
-    matrix = parts.placed(TURNED * (1.0, 1.0, -thickness))
+    matrix = pose(TURNED * (1.0, 1.0, -thickness), parts.ORIGIN)
     c, s = np.cos(0.3), np.sin(0.3)  # the camera is a little rolled about the view's direction
     axes = np.stack((c * RIGHT + s * UP, c * UP - s * RIGHT, BACKWARD), axis=1)
     view = camera(width, height, 0.4, eye=6 * BACKWARD, axes=axes)
@@ -214,7 +215,7 @@ def sheared(factor: float, width: int, height: int) -> Scene:
     axes = [[sum(TURNED[i, j] * shear[j, k] for j in range(3)) for k in range(3)] for i in range(3)]
     view = camera(width, height, 1.0, 1e-3 * EYE / factor, np.eye(3))
     view = replace(view, clip_start=1e-6 / factor, clip_end=1e3 * factor)
-    return scene(view, sphere(), matrix=parts.placed(np.array(axes)))
+    return scene(view, sphere(), matrix=pose(np.array(axes), parts.ORIGIN))
 
 
 def stored_float32(offset: float, width: int, height: int) -> Scene:
@@ -226,4 +227,4 @@ def stored_float32(offset: float, width: int, height: int) -> Scene:
     centre = offset * AWAY
     view, ball = camera(width, height, 0.5, eye=6 * BACKWARD), sphere()
     stored = replace(ball, vertices=(ball.vertices + centre).astype(np.float32))
-    return scene(view, stored, matrix=parts.placed(np.eye(3), -centre))
+    return scene(view, stored, matrix=pose(np.eye(3), -centre))

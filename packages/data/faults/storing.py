@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from reference_tracer.arrays import Bools, Integers
-from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
-from reference_tracer.diagnosis.faults.fault import Fault, Guess
-from reference_tracer.tracer.progress import at_once
 
 from ..ids import kind_of, owners_of
-from ..kind import Data, Kind
+from ..kind import Data
 from ..step import Step
-from .turned import Turned, data_fault, data_of, picture_of
+from .turned import Turned, data_fault
 
 _STEPS = (
     (Step("float16"), "half floats, of 11 bits"),
@@ -43,29 +39,10 @@ def _cut_off(evidence: Evidence, data: Data) -> Iterator[Turned]:
         yield Turned(turn=lambda made, seen: made - half)
 
 
-@dataclass(frozen=True, eq=False)
-class Rearranged(Guess):
-    """Pixels that stand in other places, and of ids whose is whose then."""
-
-    rows: Integers
-    columns: Integers
-    kind: Kind
-    blank: Bools
-
-
-def _in_place(case: Case, guess: Rearranged) -> Case:
-    there = picture_of(case).moved((guess.rows, guess.columns))
-    data = replace(there.data, kind=guess.kind, blank=guess.blank)
-    return replace(case, picture=replace(there, data=data))
-
-
-@at_once
-def _columns(evidence: Evidence) -> list[Rearranged]:
+def _columns(evidence: Evidence, data: Data) -> Iterator[Turned]:
     """Guess that pixels were stored column by column, from the topmost row or from the lowest."""
-    data = data_of(evidence)
     height, width = data.blank.shape
     y, x = np.indices(data.blank.shape)
-    out = []
     for words, upward in (("topmost", False), ("lowest", True)):
         row, column = np.divmod(x * height + (y if upward else height - 1 - y), width)
         row = row if upward else height - 1 - row
@@ -74,17 +51,17 @@ def _columns(evidence: Evidence) -> list[Rearranged]:
             numbers = data.values[row, column, 0].ravel()
             own, nothing, _ = owners_of(evidence.case.scene, evidence.frame.hits(), numbers)
             kind, blank = kind_of(own, kind.presumed), nothing.reshape(blank.shape)
-        out.append(Rearranged(row, column, kind, blank, words=words))
-    return out
+        known = partial(replace, kind=kind, blank=blank)
+        yield Turned(words=words, where=(row, column), change=known)
 
 
 STORING_FAULTS = (
-    Fault(
+    data_fault(
         "column_order",
+        (*NUMBERS, "ids"),
         "the pixels are stored column by column, from the {words} row, and read row by row",
         "COCO's masks, MATLAB and Fortran store columns; numpy's reshape takes rows.",
         "reshape with order='F', or transpose before saving",
-        _in_place,
         _columns,
         words="topmost or lowest",
         witness="cocodataset/cocoapi#184",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
+from reference_tracer.arrays import Integers
 from reference_tracer.causes.case import Case
 from reference_tracer.diagnosis.evidence import Evidence
 from reference_tracer.diagnosis.faults.fault import Fault, Numbers
@@ -18,15 +19,18 @@ Guesses = Callable[[Evidence, Data], Iterable["Turned"]]
 
 @dataclass(frozen=True, eq=False)
 class Turned(Numbers):
-    """Right values, or the data themselves, as a fault changes them."""
+    """Right values, the data themselves, or where pixels stand, as a fault changes them."""
 
     turn: Turn = lambda made, seen: made
     change: Callable[[Data], Data] = lambda data: data
+    where: tuple[Integers, Integers] | None = None  # row and column of each pixel, (h, w)
 
 
 def turned(case: Case, guess: Turned) -> Case:
     """Return the case whose file is taken to hold what the fault makes."""
     picture = picture_of(case)
+    if guess.where:
+        picture = picture.moved(guess.where)
     data = guess.change(picture.data).turned(guess.turn)
     return replace(case, picture=replace(picture, data=data))
 

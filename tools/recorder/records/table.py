@@ -14,7 +14,6 @@ from . import (
     film,
     integers,
     keeping,
-    many,
     pixels,
     quotient,
 )
@@ -35,7 +34,7 @@ FILES = {
 RECORDS = tuple(record for records in FILES.values() for record in records)
 # The files of whole functions of integers: what they have, and how they begin.
 WHOLE = {
-    "RecordedIntegers": (integers.INTEGERS + many.MANY, integers.HEAD),
+    "RecordedIntegers": (integers.INTEGERS, integers.HEAD),
     "RecordedConversions": (conversions.CONVERSIONS, conversions.HEAD),
     "RecordedChecker": (checker.CHECKER, checker.HEAD),
 }
