@@ -25,6 +25,7 @@ from ...tracer.candidates import pixel_bounds
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
+from ...tracer.world import box_corners
 from ..case import Case
 from ..cause import NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause
 from . import edges
@@ -186,8 +187,8 @@ def name_drawn(pixels: OpenPixels) -> Work[None]:
 
 def covered(camera: Camera, bounds: Floats) -> Bools:
     """Return which pixels of the camera's region a world-space box (2, 3) may cover, (h, w)."""
-    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8).T
-    x0, x1, y0, y1 = pixel_bounds(camera, corners[..., None], reach=0.5)[:, 0]
+    corners = box_corners(bounds[..., None], np.eye(4)[..., None])
+    x0, x1, y0, y1 = pixel_bounds(camera, corners, reach=0.5)[:, 0]
     r = camera.region
     out = np.zeros((r.height, r.width), bool)
     out[y0 - r.y0 : y1 - r.y0, x0 - r.x0 : x1 - r.x0] = True
