@@ -116,10 +116,10 @@ class Faces:
         beyond = 2 * max(camera.width, camera.height)
         constant, slope = self.film.place
         self.room = 1.01 * (constant + (slope + beyond * self.film.weight) * v.size) / v.w
+        self.room[~v.ahead] = np.inf
         margin = self.room + 2 * DELTA
-        at = np.clip((v.x, v.y), -beyond, beyond)
+        at = np.where(v.ahead, np.clip((v.x, v.y), -beyond, beyond), 0.0)
         self.at = np.stack((at - margin, at + margin))
-        self.at[:, :, ~v.ahead] = np.array([[[-np.inf]], [[np.inf]]])
         self.low = np.maximum(self.of_corners(self.at[0]).min(axis=0), first)
         self.high = np.minimum(self.of_corners(self.at[1]).max(axis=0), last)
         self.may_show = self.of_corners(v.finite).all(axis=0)
