@@ -84,10 +84,9 @@ def _clipped_depth(camera: Camera, renderer: Renderer, off: Floats, bound: Float
 
 def _cameras(camera: Camera, frame: Frame) -> Iterator[Camera]:
     """Yield the camera with other clip ranges that hide nothing visible, the best first."""
-    seen = frame.t[frame.instance_index != NOTHING]
-    if not len(seen):
+    if (frame.instance_index == NOTHING).all():
         return
-    nearest, farthest = float(np.min(seen)), float(np.max(seen))
+    nearest, farthest = frame.depths()
     ends = [camera.clip_end, _up(2 * camera.clip_end), _up(20 * camera.clip_end)]
     if 0 < (lower := _up(farthest / _ROOM)) < camera.clip_end:
         ends.insert(1, lower)

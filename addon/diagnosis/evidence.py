@@ -207,12 +207,15 @@ class Evidence:
 
         Parallel rays that are turned would lose it: of them it is as far as the farthest surface.
         """
-        t, camera = self.frame.t, self.case.scene.camera
-        seen = np.isfinite(t)
+        camera = self.case.scene.camera
         beyond = 1.0 if camera.projection is ORTHOGRAPHIC else BEYOND
-        far = beyond * float(np.max(t[seen], initial=1.0))
         rays = camera_rays(camera, *self.film)
-        return rays.at(np.where(seen, t, far)[self.sample])
+        return rays.at(self.depths(beyond)[self.sample])
+
+    def depths(self, beyond: float = BEYOND) -> Floats:
+        """Return the depth of each pixel (h, w); of the background, as many farthest surfaces'."""
+        _, farthest = self.frame.depths()
+        return np.minimum(self.frame.t, beyond * max(farthest, 1.0))
 
     @cached_property
     def suspects(self) -> tuple[str, ...]:

@@ -18,6 +18,7 @@ from ..pictures.bounds import largest_within
 from ..pictures.identity import Identity
 from ..scene import Scene
 from ..tracer.frame import Frame
+from ..tracer.vector import grouped
 
 NEAR = 4  # pixels that grow around each one: what is at most 2 NEAR + 1 away touches then
 MOST = 60  # regions of a picture: more frames than these would hide it
@@ -98,8 +99,7 @@ def regions(
         if len(unique) <= most:
             break
         near = max(2 * near, 1)
-    parts = [np.flatnonzero(number == n) for n in range(len(unique))]
-    parts.sort(key=lambda part: (-len(part), part[0]))
+    parts = sorted(grouped(number, len(unique)), key=lambda part: (-len(part), part[0]))
     return [_region(y[part], x[part], shown, causes) for part in parts]
 
 

@@ -28,17 +28,16 @@ RAYS = 1 << 12  # traced together
 PAIRS = 1 << 22  # of a ray and an instance that are listed together, at most
 TOGETHER = 1 << 15  # pairs of a ray and a triangle that are tested together, about
 SLACK = 1e-9  # of the coordinates, by which boxes are larger
-NEAREST = 2  # instances on a ray that are tested first; then four times as many, and so on
+NEAREST = 4  # instances on a ray that are tested first; then those that may be nearer
 
 
 @dataclass(eq=False)
 class Trees:
-    """The trees of some scenes: of their meshes, and of the instances of the last one."""
+    """The trees of meshes, and those of the last scene's as one."""
 
     of_mesh: WeakKeyDictionary[Mesh, Tree] = field(default_factory=WeakKeyDictionary)
-    _last: Scene | None = None
-    _meshes: Tree = field(default_factory=lambda: Tree.joined(()))
-    _instances: Tree = field(default_factory=lambda: Tree.joined(()))
+    _last: Sequence[Mesh] = ()
+    _joined: Tree = field(default_factory=lambda: Tree.joined(()))
 
     def trace(self, scene: Scene, rays: Rays) -> Work[Hits]:
         """Return the nearest hit of each of n rays, as :func:`..tracer.nearest.trace_rays`."""
@@ -46,25 +45,21 @@ class Trees:
         test_planes(scene, rays, hits)
         yield None
         if scene.instances:
-            self._prepare(scene)
+            meshes, instances = self._of_meshes(scene.meshes), _instances(scene)
             together = int(np.clip(PAIRS // len(scene.instances), 64, RAYS))
             for part in parts(rays.count, together):
                 some = np.arange(part.start, part.stop)
-                yield from _enter(scene, rays, some, self._meshes, self._instances, hits)
+                yield from _enter(scene, rays, some, meshes, instances, hits)
         return hits
 
-    def _prepare(self, scene: Scene) -> None:
-        """Make the trees that the scene does not share with the last one."""
-        last = self._last
-        same = last is not None and identical(last.meshes, scene.meshes)
-        if not same:
-            for mesh in scene.meshes:
+    def _of_meshes(self, meshes: Sequence[Mesh]) -> Tree:
+        if not identical(self._last, meshes):
+            for mesh in meshes:
                 if mesh not in self.of_mesh:
                     self.of_mesh[mesh] = _tree(mesh)
-            self._meshes = Tree.joined([self.of_mesh[mesh] for mesh in scene.meshes])
-        if last is None or not same or not identical(last.instances, scene.instances):
-            self._instances = _instances(scene)
-        self._last = scene
+            self._joined = Tree.joined([self.of_mesh[mesh] for mesh in meshes])
+            self._last = meshes
+        return self._joined
 
 
 def identical(first: Sequence[object], second: Sequence[object]) -> bool:
@@ -107,14 +102,9 @@ def _enter(
     order = np.lexsort((near, ray))
     ray, instance, near = ray[order], instance[order], near[order]
     rank = np.arange(len(ray)) - np.searchsorted(ray, ray)
-    first, many = 0, NEAREST
-    while True:
-        now = np.flatnonzero((rank >= first) & (near <= hits.t[some[ray]]))
-        if not len(now):
-            return
-        now = now[rank[now] < first + many]
+    for turn in (rank < NEAREST, rank >= NEAREST):
+        now = np.flatnonzero(turn & (near <= hits.t[some[ray]]))
         yield from _test(scene, rays, some[ray[now]], instance[now], meshes, hits)
-        first, many = first + many, 4 * many
 
 
 def _test(

@@ -171,23 +171,16 @@ def keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> N
     # all that are nearer than what is stored are written, then those that are nearer still, and so
     # on. Each round brings a pixel's hit nearer, so that it ends. The order is turned round each
     # time, as a mesh is often sorted from near to far, or from far to near.
-    once = bool((pixel[1:] > pixel[:-1]).all())  # as those of one triangle
     while len(pixel):
         nearer = np.flatnonzero(_before(found, slice(None), hits, pixel))[::-1]
         pixel, found = pixel[nearer], found.take(nearer)
         hits.enter(pixel, found)
-        if once:
-            return
 
 
 def _before(first: Hits, rays: Index | slice, second: Hits, others: Index | slice) -> Bools:
     """Return where hits of `rays` come before others, in the order of t, instance, triangle."""
     t, other_t = first.t[rays], second.t[others]
-    out = t < other_t
-    tied = np.flatnonzero(t == other_t)  # mostly none
-    if len(tied):
-        one, other = (tied if isinstance(some, slice) else some[tied] for some in (rays, others))
-        instance, other_instance = first.instance[one], second.instance[other]
-        lower = first.triangle[one] < second.triangle[other]
-        out[tied] = (instance < other_instance) | ((instance == other_instance) & lower)
-    return out
+    instance, other = first.instance[rays], second.instance[others]
+    lower = first.triangle[rays] < second.triangle[others]
+    lower = (instance < other) | ((instance == other) & lower)
+    return (t < other_t) | ((t == other_t) & lower)

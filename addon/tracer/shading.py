@@ -25,17 +25,13 @@ def colors(scene: Scene, hits: Hits) -> Colors:
     interpolated between them by the barycentrics.
     """
     first, last = scene.color_rows
-    has_slots = first != last
-    if not has_slots.any():
-        out = scene.color_table.take(first, axis=0).take(hits.instance, axis=0)
-    else:
-        row = first.take(hits.instance)
-        several = np.flatnonzero(has_slots.take(hits.instance))
-        for mesh, some in by_mesh(scene, hits.instance[several]):
-            pixels = several[some]
-            slots = mesh.slots.take(hits.triangle[pixels])
-            row[pixels] = np.minimum(row[pixels] + slots, last[hits.instance[pixels]])
-        out = scene.color_table.take(row, axis=0)
+    row = first.take(hits.instance)
+    several = np.flatnonzero((first != last).take(hits.instance))
+    for mesh, some in by_mesh(scene, hits.instance[several]):
+        pixels = several[some]
+        slots = mesh.slots.take(hits.triangle[pixels])
+        row[pixels] = np.minimum(row[pixels] + slots, last[hits.instance[pixels]])
+    out = scene.color_table.take(row, axis=0)
     if any(mesh.corner_colors is not None for mesh in scene.meshes):
         for mesh, pixels in by_mesh(scene, hits.instance):
             if mesh.corner_colors is not None:
@@ -78,11 +74,8 @@ def _normals(scene: Scene, instance: Index, triangle: Index) -> Vectors:
 
 
 def near_1(v: Vectors) -> Vectors:
-    """Return vectors (3, n), scaled where their products might overflow or underflow."""
-    size = largest(*np.abs(v))
-    if (((size > 2.0**-100) & (size < 2.0**100)) | (size == 0)).all():
-        return v
-    return np.ldexp(v, -np.frexp(size)[1])
+    """Return vectors (3, n), scaled by powers of 2: their products neither over- nor underflow."""
+    return np.ldexp(v, -np.frexp(largest(*np.abs(v)))[1])
 
 
 def positions(rays: Rays, hits: Hits) -> Vectors:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays import Array, Bools, Floats, Index, Integers
+from ..arrays import Array, Bools, Floats, Index, Integers, Places
 from .camera import dual_axes, project
 from .vector import Arrays, Vectors, cross, gather, transform_points
 
@@ -172,9 +172,7 @@ def world_corners(scene: Scene, instance: Index, triangle: Index) -> Floats:
     out = np.empty((3, 3, len(instance)))
     with np.errstate(over="ignore", invalid="ignore"):
         for mesh, rows in by_mesh(scene, instance):
-            own = instance[rows]
-            one = bool((own == own[0]).all())
-            matrices = scene.instance_matrices[..., own[:1] if one else own]
+            matrices = scene.instance_matrices[..., instance[rows]]
             corners = mesh.triangles.take(triangle[rows], axis=0)
             for corner in range(3):
                 local = mesh.vertices.take(corners[:, corner], axis=0).T
@@ -195,12 +193,9 @@ def planes_of(scene: Scene, instance: Index, triangle: Index) -> tuple[Vectors, 
     return points, normals
 
 
-def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Index | slice]]:
+def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Places]]:
     """Yield each mesh among instances (n,), which are no planes, with its rows of them."""
     of = scene.instance_meshes[instance]
-    if len(of) and (of == of[0]).all():
-        yield scene.meshes[of[0]], slice(None)
-        return
     for mesh in np.unique(of):
         yield scene.meshes[mesh], np.flatnonzero(of == mesh)
 

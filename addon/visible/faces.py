@@ -118,7 +118,7 @@ class Faces:
         self.room = 1.01 * (constant + (slope + beyond * self.film.weight) * v.size) / v.w
         self.room[~v.ahead] = np.inf
         margin = self.room + 2 * DELTA
-        at = np.where(v.ahead, np.clip((v.x, v.y), -beyond, beyond), 0.0)
+        at = np.clip(np.nan_to_num((v.x, v.y)), -beyond, beyond)
         self.at = np.stack((at - margin, at + margin))
         self.low = np.maximum(self.of_corners(self.at[0]).min(axis=0), first)
         self.high = np.minimum(self.of_corners(self.at[1]).max(axis=0), last)

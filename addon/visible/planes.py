@@ -14,7 +14,10 @@ from ..tracer.vector import dot
 from .faces import Faces
 from .polygons import cut
 
-_ROUNDING = 2.0**-50  # of a corner's distance to a plane, relative to its terms
+# Of a corner's distance to a plane, relative to the terms of the face's farthest corners. Each cut
+# before moved it by twice that at most.
+_ROUNDING = 2.0**-50
+_HUGE = 2.0**900  # nothing over- or underflows for a distance whose terms are smaller
 
 
 def behind_plane(scene: Scene, faces: Faces, plane: Plane, low: Floats, high: Floats) -> Floats:
@@ -47,14 +50,16 @@ def before_planes(scene: Scene, faces: Faces, face: Index, low: Floats, high: Fl
     """
     camera = scene.camera
     polygons = faces.points[:, faces.corners[:, face]].swapaxes(0, 1)
-    for plane in scene.planes:
+    largest = np.abs(polygons).max(axis=0)[:, None]
+    for number, plane in enumerate(scene.planes):
         parallel = camera.projection.shares_direction
         away = camera.forward if parallel else plane.point - camera.origin
         normal = -np.sign(away @ plane.normal) * plane.normal[:, None, None]
         corners = polygons.swapaxes(0, 1)
         point = plane.point[:, None, None]
-        size = dot(np.abs(normal), np.abs(corners) + np.abs(point))
-        value = dot(normal, corners - point) + _ROUNDING * size
+        size = dot(np.abs(normal), largest + np.abs(point))
+        value = dot(normal, corners - point) + (1 + 2 * number) * _ROUNDING * size
         met = behind_plane(scene, faces, plane, low, high) > -np.inf
+        met = met & (size > 1 / _HUGE) & (size < _HUGE)
         polygons = cut(polygons, np.where(met, value, 1.0))
     return polygons

@@ -54,5 +54,5 @@ def test_rays_that_are_not_finite_are_refused(make, which, value):
     """Else they would be certified to see nothing."""
     both = np.ones((2, 3, 4))
     both[which, 1, 2] = value
-    with pytest.raises(SceneError, match="not finite"):
+    with pytest.raises(SceneError, match="finite numbers"):
         trace(make.room(), Settings(), rays=Rays(*both))

@@ -243,6 +243,37 @@ def test_border_shift_and_planes(projection):
 
 
 @pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+@pytest.mark.parametrize("seed", [31, 83, 111])
+def test_what_two_planes_leave_at_the_edge_of_a_long_face(projection, seed):
+    """A tip as thin as the rounding of where the first plane cuts the face's edge."""
+    random = np.random.default_rng(seed)
+    angle = random.uniform(0, 2 * np.pi)
+    along = np.array([np.cos(angle), np.sin(angle), 0])
+    across = np.array([-np.sin(angle), np.cos(angle), 0])
+    up = np.array([0, 0, 1])
+    first = Plane(0, np.zeros(3), up + along, GREY[0])
+    second = Plane(0, across * random.uniform(0, 1e-10), up - across, GREY[0])
+    face = triangles([along * -6e5, along * 6e5, across * 0.2])
+    judged(scene_of(face, camera=camera(projection), planes=(first, second)))
+
+
+def test_a_plane_whose_normal_is_very_long_or_short():
+    """What over- or underflows says nothing of what is behind the plane."""
+    far = 2.0**25
+    face = [(far, 0.001, 1 - far), (far, 0.002, 1 - far), (-far, 0.001, 1 + far)]
+    plane = Plane(0, np.zeros(3), np.array([1, 0, 1]) * 2.0**1000, GREY[0])
+    judged(scene_of(triangles(face), camera=camera(ORTHOGRAPHIC), planes=(plane,)))
+    random = np.random.default_rng(1286)
+    normal = np.array((*random.normal(0, 0.3, 2), 1)) * 2.0**-525
+    plane = Plane(0, np.zeros(3), normal * 2.0**-525, GREY[0])
+    x, y = random.normal(0, 0.3, (3, 2)).T * [[1], [0.01]]
+    slope = plane.normal * 2.0**600 * 2.0**450
+    above = -(x * slope[0] + y * slope[1]) / slope[2] + 2.0**-26 * random.random()
+    face = np.stack((x, y, above), axis=1)
+    judged(scene_of(triangles(face), camera=camera(ORTHOGRAPHIC), planes=(plane,)))
+
+
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
 def test_what_touches_the_border_from_outside_is_not_seen(projection):
     """By an edge or a corner; a face of which a strip is within is seen."""
     beside = [[(2, -1, 0), (2, 1, 0), (3, 0, 0)], [(0, 2, 0), (1, 3, 0), (-1, 3, 0)]]

@@ -20,6 +20,7 @@ from ...tracer import shading
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
 from ...tracer.progress import Work
+from ...tracer.vector import grouped
 from .. import hull
 from ..cause import Cause
 from .coverage import coverage
@@ -143,22 +144,21 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
     picture = part.picture
     found = np.zeros(len(left), bool)
     may = yield from coverage(part.probe, np.full(len(part.band), radius))
-    order = np.argsort(may.pixel, kind="stable")
     behind = picture.made_of(shading.colors(part.scene, may.hits))
     half = (may.distance > part.band[may.pixel])[:, None] / 2
-    behind = ((1 - half) * behind + half * mixed[0, may.pixel])[order]
-    ends = np.searchsorted(may.pixel[order], (left, left + 1))
+    behind = (1 - half) * behind + half * mixed[0, may.pixel]
+    near = grouped(may.pixel, len(part.band))
     opposite = np.arange(len(mixed)) ^ 1
-    for n, (pixel, first, last) in enumerate(zip(left, *ends, strict=True)):
+    for n, pixel in enumerate(left):
         seen = mixed[:, pixel]
         if (seen != seen[0]).any():
             pairs = np.unique(np.hstack((seen, seen[opposite])), axis=0)
             one, other = np.split(pairs, 2, axis=1)
-            near = np.concatenate((one, other, np.unique(behind[first:last], axis=0)))
-            across = np.arange(len(near))
+            every = np.concatenate((one, other, np.unique(behind[near[pixel]], axis=0)))
+            across = np.arange(len(every))
             across[: 2 * len(pairs)] = np.roll(across[: 2 * len(pairs)], len(pairs))
-            color = picture.color[pixel : pixel + 1, : near.shape[1]]
-            [found[n]] = yield from is_mix(color, near[:, None], picture.storage.sums, across)
+            color = picture.color[pixel : pixel + 1, : every.shape[1]]
+            [found[n]] = yield from is_mix(color, every[:, None], picture.storage.sums, across)
         yield None
     return found
 

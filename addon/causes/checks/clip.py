@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...tracer.hits import NOTHING, Hits
+from ...tracer.nearest import within_clip
 from ...tracer.progress import Work
 from ..cause import Cause
 from .parts import Part, near_surfaces
@@ -56,7 +57,7 @@ def _clipped(part: Part) -> Work[None]:
         distance = np.minimum(*ends)
         bound = part.resolution(hits)
         at_clip = (hits.instance != NOTHING) & (distance <= bound)
-        inside = (hits.t >= camera.clip_start) & (hits.t <= camera.clip_end)
+        inside = within_clip(camera, hits.t)
         # A surface that is surely clipped is passed; one that is surely not ends the way.
         seen = going & (inside | at_clip | (hits.instance == NOTHING))
         may = seen & at_clip

@@ -22,6 +22,7 @@ from ...pictures.storage import difference
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
+from ...tracer.vector import grouped
 from ..cause import AGREE, UNEXPLAINED, Cause, Shade
 from .probe import OpenPixels, blocks, other_color
 
@@ -195,7 +196,6 @@ def groups(keys: Array) -> Index:
 
 def medians(shown: Array, group: Index) -> tuple[Places, Floats]:
     """Return each group's first pixel, (k,), and its median shown colour, (k, 4)."""
-    _, first = np.unique(group, return_index=True)
-    order = np.argsort(group, kind="stable")
-    parts = np.split(shown[order], np.cumsum(np.bincount(group))[:-1])
-    return first, np.array([np.median(part, axis=0) for part in parts])
+    every = grouped(group, int(np.max(group)) + 1)
+    first = np.array([own[0] for own in every])
+    return first, np.array([np.median(shown[own], axis=0) for own in every])

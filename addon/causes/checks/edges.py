@@ -16,6 +16,7 @@ from ...pictures.picture import Picture
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
+from ...tracer.nearest import within_clip
 from ...tracer.progress import Work
 from ...tracer.world import world_corners
 from ..cause import Cause
@@ -215,7 +216,7 @@ def _closed(scene: Scene, beside: list[Hits], asks: Bools) -> Floats:
     names = np.stack([h.triangle[asked] for h in beside])  # (samples, pixels)
     corners = world_corners(scene, instance[:, asked].ravel(), names.ravel())
     depth = film_of(scene.camera, corners.swapaxes(0, 1).reshape(3, -1))[2].reshape(3, *names.shape)
-    whole = ((depth >= scene.camera.clip_start) & (depth <= scene.camera.clip_end)).all(axis=(0, 1))
+    whole = within_clip(scene.camera, depth).all(axis=(0, 1))
     corners = corners.reshape(3, 3, *names.shape)
     same = (corners[:, None, :, :1] == corners).all(axis=2)  # with those of the first sample
     shared = same.any(axis=1).all(axis=1).sum(axis=0)

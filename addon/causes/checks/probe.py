@@ -168,9 +168,6 @@ def _together(chunks: list[Pairs]) -> list[Pairs]:
 
 def _joined(chunks: list[Pairs]) -> Pairs:
     """Concatenate pairs, with one triangle each."""
-    pixel, instance, triangle = (
-        np.concatenate([getattr(p, name) for p in chunks])
-        for name in ("pixel", "instance", "triangle")
-    )
-    corners = np.concatenate([p.corners for p in chunks], axis=2)
-    return Pairs(pixel, np.arange(len(pixel)), WorldTriangles(corners, instance, triangle))
+    pixel = np.concatenate([p.pixel for p in chunks])
+    triangles = WorldTriangles.joined([p.triangles.take(p.row) for p in chunks])
+    return Pairs(pixel, np.arange(len(pixel)), triangles)

@@ -18,6 +18,7 @@ from ...projections import ORTHOGRAPHIC
 from ...scene import Instance, Scene
 from ...tracer.progress import Work
 from ...tracer.vector import transform_points
+from ...tracer.world import box_corners
 from .fault import Values, with_instances
 from .fitting import FOUND
 from .looked import Looked
@@ -118,8 +119,8 @@ ABOUT = "", ", about the middle of its base", ", about its middle"
 
 
 def _scaled(about: int, axis: Floats, matrix: Floats, bounds: Floats, *factors: float) -> Floats:
-    corners = transform_points(matrix, np.array(list(product(*bounds.T))).T)
-    low, high = corners.min(axis=1), corners.max(axis=1)
+    corners = box_corners(bounds[..., None], matrix[..., None])[..., 0]
+    low, high = corners.min(axis=0), corners.max(axis=0)
     middle = (low + high) / 2
     point = (matrix[:3, 3].copy(), np.array((*middle[:2], low[2])), middle)[about]
     matrix[:3, :3] *= 1 + axis * (np.array(factors) - 1)

@@ -57,7 +57,7 @@ class Looked:
             shown &= ~seen
         if not seen.any() or not shown.any():
             return None
-        around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
+        around = largest_within(seen | shown, AROUND)
         chosen = np.zeros_like(seen)
         where = around & evidence.beside_edges if evidence.fine else around
         for some in (where & evidence.unexplained, where & ~evidence.unexplained):

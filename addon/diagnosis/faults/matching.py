@@ -18,7 +18,7 @@ from ...pictures.bounds import largest_within
 from ...pictures.metrics import beside_edges
 from ...scene import Camera
 from ...tracer.camera import camera_rays, film_of
-from ..evidence import BEYOND, NEAR, Evidence, film_at, spread
+from ..evidence import NEAR, Evidence, film_at, spread
 
 POINTS = 384  # pixels at edges that are searched
 WINDOW = 4  # pixels on each side of one that are compared
@@ -146,9 +146,7 @@ def _matched(evidence: Evidence, where: Bools, about: tuple[float, float] | None
     rows, columns = rows[known], columns[known]
     camera = evidence.case.scene.camera
     film = film_at(camera, rows, columns)
-    t = evidence.frame.t
-    far = BEYOND * float(np.max(t[np.isfinite(t)], initial=1.0))
-    nearest = -largest_within(-np.where(np.isfinite(t), t, far), 1)  # at an edge, what is in front
+    nearest = -largest_within(-evidence.depths(), 1)  # at an edge, what is in front
     points = camera_rays(camera, *film).at(nearest[rows, columns])
     return Matches(points, film + (moved + mean)[:, known], each[known])
 

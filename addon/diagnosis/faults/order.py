@@ -14,13 +14,13 @@ from ...scene import Scene
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.nearest import plan
 from ...tracer.progress import Work, result_of
+from ...tracer.render import tiles
 from ...tracer.shading import colors as colors_of
 from ..evidence import Evidence
 from .fault import AnyFault, Effort, Example, Fault, Option, always, unchanged, with_option
 
 LAYERS = 64  # surfaces along a ray, at most
 MOST = 2  # guesses, at most
-BLOCK = 1 << 14  # pixels that are drawn together
 
 
 def _quarter_turned(case: Case, quarters: int) -> Case | None:
@@ -93,12 +93,9 @@ def _orders(evidence: Evidence) -> Work[list[Option]]:
 def _drawn(traced: Colors, guess: Option, evidence: Evidence) -> Colors:
     """Draw the whole picture in another order, (h, w, 4)."""
     scene = evidence.case.scene
-    region = scene.camera.region
     made = result_of(plan(scene, SOUND, 0.0))
-    rows = max(1, BLOCK // region.width)
     out = []
-    for y in range(region.y0, region.y1, rows):
-        tile = replace(region, y0=y, y1=min(y + rows, region.y1))
+    for tile in tiles(scene.camera):
         probe = result_of(Probe.of(made, tile, np.ones(tile.width * tile.height, bool)))
         [colors] = result_of(_seen(probe, [guess.number]))
         out.append(colors.reshape(tile.height, tile.width, 4))

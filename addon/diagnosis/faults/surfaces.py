@@ -69,9 +69,9 @@ def surfaces(evidence: Evidence, whole: bool = False) -> Surfaces | None:
 def _looked_at(evidence: Evidence, where: Bools) -> Surfaces | None:
     picture = evidence.picture
     some = spread(where, MOST)
+    some = some[np.isfinite(picture.color.reshape(-1, 4)[some]).all(axis=1)]
     if picture.transform is not None or picture.lit or not picture.has_colors or not len(some):
         return None
-    some = some[np.isfinite(picture.color.reshape(-1, 4)[some]).all(axis=1)]
     traced, shown = (v.reshape(-1, 4)[some] for v in (evidence.frame.color, picture.color))
     instance = evidence.frame.instance_index.ravel()[some]
     group = groups(np.column_stack((instance, traced)))

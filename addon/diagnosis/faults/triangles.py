@@ -6,14 +6,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...arrays import Array, Bools, Places
+from ...arrays import Bools, Places
 from ...causes.case import Case
 from ...causes.checks.probe import SOUND
 from ...projections import ORTHOGRAPHIC
 from ...rendering import steps
-from ...scene import Camera, Mesh, Scene
+from ...scene import Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
+from ...tracer.vector import dot
+from ...tracer.world import planes_of
 from ..evidence import Evidence, least_with
 from .fault import AnyFault, Effort, Example, Fault, Guess, instances_named, of_meshes
 from .suspects import seen_instances
@@ -47,23 +49,19 @@ def _culled(case: Case, guess: Guess) -> Case:
 
     def culled(scene: Scene) -> Scene:
         meshes: dict[int, Mesh] = {}
+        camera = scene.camera
         for n, instance in enumerate(scene.instances):
             mesh = scene.meshes[instance.mesh]
-            matrix = instance.world_from_object
-            world = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
-            a, b, c = (world[mesh.triangles[:, k]] for k in range(3))
-            front = _towards(scene.camera, a, np.cross(b - a, c - a))
-            front *= np.sign(np.linalg.det(matrix[:3, :3]))  # Blender turns the normals back
-            meshes[n] = with_triangles(mesh, front >= 0)
+            every = np.arange(len(mesh.triangles))
+            points, normals = planes_of(scene, np.full_like(every, n), every)
+            is_parallel = camera.projection is ORTHOGRAPHIC
+            along = camera.forward[:, None] if is_parallel else points - camera.origin[:, None]
+            front = dot(normals, along)  # the textbook's normals point inwards
+            front *= np.sign(np.linalg.det(instance.world_from_object[:3, :3]))
+            meshes[n] = with_triangles(mesh, front >= 0)  # Blender turns the normals back
         return scene.with_meshes(meshes)
 
     return case.with_scenes(culled)
-
-
-def _towards(camera: Camera, points: Array, normals: Array) -> Array:
-    """Return the dot product of normals (n, 3) with the vector to the camera, (n,)."""
-    back = -camera.forward if camera.projection is ORTHOGRAPHIC else camera.origin - points
-    return (normals * back).sum(axis=1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,10 +34,8 @@ def _end(camera: Camera, end: float) -> Camera | None:
 
 def _halfway(case: Case, frame: Frame) -> Numbers | None:
     """Pick a clip start halfway between the nearest and the farthest visible surface."""
-    t = frame.t[np.isfinite(frame.t)]
-    if not len(t) or np.ptp(t) == 0:
-        return None
-    return Numbers((float(np.min(t) + np.max(t)) / 2,))
+    nearest, farthest = frame.depths()
+    return Numbers(((nearest + farthest) / 2,)) if nearest < farthest else None
 
 
 def _found(
@@ -52,8 +50,8 @@ def _found(
     none = own * FAR**sign if own > 0 else own  # with this depth, nothing is clipped
     out = [Numbers((none,), words=LEFT_OUT)]
     widest = changed(camera, none)
-    t = evidence.frame.t[np.isfinite(evidence.frame.t)]
-    if widest is None or not len(t) or not np.ptp(t):
+    nearest, farthest = evidence.frame.depths()
+    if widest is None or nearest == farthest:
         return out
     # The rays are the same with each clip depth: their candidates are found once.
     probe = yield from evidence.probe(evidence.case.scene.seen_by(widest))
@@ -72,7 +70,7 @@ def _found(
         found = yield from right(depth)
         if found is not None and found.sum() >= evidence.least_right():
             starts.append(depth)
-    search = Search(right, np.eye(1) * np.ptp(t) / STEPS, least=evidence.least_right())
+    search = Search(right, np.eye(1) * (farthest - nearest) / STEPS, least=evidence.least_right())
     if starts and (guess := (yield from search.guess(starts))):
         beyond = "nearer" if sign < 0 else "farther"
         words = f"at {guess.values[0]:.4g} m: what is {beyond} is not shown"
