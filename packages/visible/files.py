@@ -15,7 +15,6 @@ from reference_tracer.visible import SEEN, Visible
 
 SCHEMA = "reference_tracer.visible/1"
 _KINDS = "hidden", "seen_from_front", "undecided", "seen_from_behind"  # by Visible.seen; and
-_BEHIND = 3
 _BEHIND = 3  # beside HIDDEN, SEEN and UNDECIDED: seen, and from behind
 
 

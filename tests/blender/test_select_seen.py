@@ -127,6 +127,7 @@ def test_the_attribute_is_stored_in_both_modes_and_no_other_is_written_over(buil
 def test_a_linked_mesh_cannot_have_an_attribute_which_is_said(scene, build, tmp_path, capsys):
     path = str(tmp_path / "library.blend")
     cube = build.cube("Cube")
+    cube.data.attributes.new("camera_sees", "FLOAT", "POINT")  # which nobody here can rename
     bpy.data.libraries.write(path, {cube})
     bpy.data.objects.remove(cube)
     with bpy.data.libraries.load(path, link=True) as (_, linked):

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.visible.faces import Faces
 from reference_tracer.visible.hiding import patches
-from reference_tracer.visible.polygons import cut, middles
+from reference_tracer.visible.planes import before_planes
+from reference_tracer.visible.polygons import cut, middles, on_film
 
-from .test_visible import ORTHOGRAPHIC, camera, scene_of, triangles
+from .test_visible import GREY, ORTHOGRAPHIC, Plane, camera, scene_of, triangles
 
 
 def test_a_face_nearly_edge_on_is_beside_no_cell_that_it_covers():
@@ -74,3 +77,28 @@ def test_what_is_cut_by_a_function_that_overflows_is_left():
         left = cut(polygons, value)
     assert (left == polygons[0]).all(axis=1).any(axis=0).all()
     assert np.isnan(cut(polygons, -np.ones((3, 3)))).all()
+
+
+def test_what_a_plane_leaves_of_a_face_that_goes_on_behind_the_eye_is_in_its_box():
+    """Where the plane cuts it may be far nearer to the eye than its corner before that is."""
+    random = np.random.default_rng(0)
+    height = 2.0**-20  # of the eye above the plane
+    plane = Plane(0, np.array((0, -height, 0)), np.array((0.0, 1.0, 0.0)), GREY[0])
+    count = 200
+    crossing = random.uniform((-2, -1, -20), (2, -1, -4), (2, count, 3)) * height
+    behind = random.uniform((-1, -3, 1), (1, -1, 5), (count, 3))
+    points = np.concatenate((2 * crossing - behind, behind[None])).swapaxes(0, 1)
+    own = camera(at=(0, 0, 0), clip_start=2.0**-30)
+    scene = scene_of(triangles(points), camera=own, planes=(plane,))
+    faces = result_of(Faces.of(scene))
+    every = np.arange(count)
+    box = np.array(((0.0,), (0.0,))).repeat(count, 1), np.array(((16.0,), (7.0,))).repeat(count, 1)
+    low, high, _ = on_film(faces, every, before_planes(scene, faces, every, *box))
+    for face, corners in enumerate(points):
+        a, b, c = ([Fraction(x) for x in corner] for corner in corners.tolist())
+        for before in (a, b):
+            share = (before[1] + Fraction(height)) / (before[1] - c[1])
+            x, y, z = (p + share * (q - p) for p, q in zip(before, c, strict=True))
+            for at, least, most in zip((x, y), low[:, face], high[:, face], strict=True):
+                film = 16 * (at / -z + Fraction(1, 2))
+                assert not (film < least or film > most)

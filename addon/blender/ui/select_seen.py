@@ -59,8 +59,9 @@ class REFERENCE_TRACER_OT_select_seen(LongWork, bpy.types.Operator):
         if context.mode == "OBJECT":
             objects = context.view_layer.objects if self.attribute else ()
         meshes = {o.data for o in objects if o.type == "MESH"}
-        for mesh in meshes if self.attribute else ():
-            check_free(mesh, NAME)
+        for mesh in meshes:
+            if self.attribute and not mesh.library:
+                check_free(mesh, NAME)
         return look(context, meshes, frames_of(context.scene) if self.frames else ())
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
