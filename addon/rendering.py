@@ -131,6 +131,13 @@ def steps(
         yield from loop.steps(scene, chosen, frame, tracer or TRACERS[chosen.method])
 
 
+def frame_of(scene: Scene, settings: Settings, tracer: Tracer | None = None) -> Work[Frame]:
+    """Trace a scene in steps, as :func:`steps`, and return its frame."""
+    frame = Frame.empty(scene)
+    yield from steps(scene, settings, frame, tracer)
+    return frame
+
+
 @overload
 def trace(
     scene: Scene,

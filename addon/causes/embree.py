@@ -15,11 +15,12 @@ import numpy as np
 from ..arrays import Array, Bools, Floats
 from ..pictures.bounds import SNAPPING, U32
 from ..scene import Camera, Instance, Mesh, Scene
+from ..tracer import plane
 from ..tracer.camera import Rays, camera_rays, film_positions, pixel_size
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
-from ..tracer.vector import transform_points
-from ..tracer.world import reaches
+from ..tracer.vector import dot, transform_points
+from ..tracer.world import box_corners, planes_of, reaches, world_corners
 
 # A ray passes a triangle if no weight is below minus this: it is float32's epsilon times |U+V+W|.
 TOLERANCE = 2 * U32
@@ -66,6 +67,7 @@ def _beyond(mesh: Mesh, instance: Instance, farthest: float) -> Bools:
     return out
 
 
+@np.errstate(all="ignore")
 def _unsure(scene: Scene, frame: Frame) -> Bools:
     """Return the pixels (h, w) in which a large triangle may be hit, or missed, by rounding alone.
 
@@ -74,27 +76,25 @@ def _unsure(scene: Scene, frame: Frame) -> Bools:
     less, a neighbour is hit in its place, as they share the edge.
     """
     out = np.zeros(frame.shape, bool)
-    found = [
-        (large, number)
-        for number, instance in enumerate(scene.instances)
-        for large in _large(scene.camera, scene.meshes[instance.mesh], instance)
-    ]
+    found = _large(scene)
     if not found:
         return out
     rays = camera_rays(scene.camera, *film_positions(scene.camera.region))
     t = np.where(frame.instance_index == NOTHING, scene.camera.clip_end, frame.t).ravel()
-    for large, number in sorted(found, key=lambda one: -one[0].size)[:MOST]:
+    for large in sorted(found, key=lambda one: -one.size)[:MOST]:
         terms, off = _weights(rays, large.corners)
-        own = (frame.instance_index == number) & (frame.triangle_index == large.triangle)
+        own = frame.instance_index == large.instance
+        own &= frame.triangle_index == large.triangle
         seen = np.flatnonzero(own)
         whole = terms[:, seen].sum(axis=0)
         missed = ((terms[:, seen] < off) & (off > GROSS * whole)).any(axis=0)
         out.flat[seen[missed]] = True
         beside = np.flatnonzero(terms.min(axis=0) < 0)
-        beside = beside[frame.instance_index.flat[beside] != number]
+        beside = beside[frame.instance_index.flat[beside] != large.instance]
         terms = terms[:, beside]
         beside = beside[(terms + off >= -TOLERANCE * terms.sum(axis=0)).all(axis=0)]
-        depth = _depths(rays.take(beside), large.corners)
+        surface = np.array([large.instance]), np.array([large.triangle])
+        depth = plane.intersect(rays.take(beside), *planes_of(scene, *surface))
         out.flat[beside[(depth >= scene.camera.clip_start) & (depth < t[beside])]] = True
     return out
 
@@ -103,33 +103,33 @@ class _Large(NamedTuple):
     """A triangle that Embree may enlarge by more than a rasteriser's rounding."""
 
     size: float  # of the longest edge, in pixels where the triangle is nearest
+    instance: int
     triangle: int
     corners: Floats  # (3, 3) world space
 
 
-def _large(camera: Camera, mesh: Mesh, instance: Instance) -> list[_Large]:
-    """Return the triangles of an instance that Embree may enlarge so."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        corners = np.array(np.meshgrid(*mesh.bounds.T)).reshape(3, -1)
-        box = transform_points(instance.world_from_object, corners)
-        if not _size(camera, box.T, np.asarray(np.ptp(box, axis=1).sum())) * TOLERANCE > SNAPPING:
-            return []  # all of the mesh is smaller than that
-        world = transform_points(instance.world_from_object, mesh.vertices.T.astype(np.float64))
-        corners = world.T[mesh.triangles]  # (n, corner, component)
-        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-        size = _size(camera, corners, edges)
+def _large(scene: Scene) -> list[_Large]:
+    """Return the triangles of a scene that Embree may enlarge so."""
+    boxes = box_corners(scene.instance_bounds, scene.instance_matrices)
+    size = _size(scene.camera, boxes, np.ptp(boxes, axis=0).sum(axis=0))
+    out = []
+    for number in np.flatnonzero(size * TOLERANCE > SNAPPING).tolist():
+        every = np.arange(len(scene.meshes[scene.instances[number].mesh].triangles))
+        corners = world_corners(scene, np.full_like(every, number), every)
+        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).max(axis=0)
+        size = _size(scene.camera, corners, edges)
         large = np.flatnonzero((size * TOLERANCE > SNAPPING) & np.isfinite(size))
-    return [_Large(float(size[n]), int(n), corners[n]) for n in large]
+        out += [_Large(float(size[n]), number, int(n), corners[..., n]) for n in large]
+    return out
 
 
 def _size(camera: Camera, points: Array, length: Array) -> Array:
-    """Return lengths (...) in pixels, at the nearest of the points (..., k, 3) that is seen."""
-    depth = ((points - camera.origin) @ camera.forward).min(axis=-1)
+    """Return lengths (n,) in pixels, at the nearest of the points (k, 3, n) that is seen."""
+    depth = dot((points - camera.origin[:, None]).swapaxes(0, 1), camera.forward).min(axis=0)
     scale = camera.projection.scale(np.maximum(depth, camera.clip_start))
     return length / (scale * min(pixel_size(camera)))
 
 
-@np.errstate(all="ignore")
 def _weights(rays: Rays, corners: Array) -> tuple[Floats, Floats]:
     """Return the weights U, V, W of a triangle's corners (3, 3) along n rays, and their errors.
 
@@ -151,10 +151,3 @@ def _weights(rays: Rays, corners: Array) -> tuple[Floats, Floats]:
     products += np.roll(e, -2, axis=1) * np.roll(s, -1, axis=1)
     off: Floats = ROUNDINGS * U32 / 2 * (products @ np.abs(d).max(axis=1))
     return terms, off[:, None]
-
-
-@np.errstate(all="ignore")
-def _depths(rays: Rays, corners: Array) -> Floats:
-    """Return at which t rays meet the plane of a triangle (3, 3), (n,)."""
-    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    return (normal @ (corners[0][:, None] - rays.origins)) / (normal @ rays.directions)

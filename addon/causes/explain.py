@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays import Bools, Floats, Places
 from ..pictures.bands import band_of
 from ..pictures.bounds import DECIDABLE
-from ..rendering import steps
+from ..rendering import frame_of
 from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
@@ -101,8 +101,7 @@ def _before(case: Case, frame: Frame) -> Work[Frame]:
     color = frame.color.copy()
     color[frame.instance_index == NOTHING] = case.scene.background
     if case.settings.samples > 1:
-        again = Frame.empty(case.scene)
-        yield from steps(case.scene, case.settings, again)
+        again = yield from frame_of(case.scene, case.settings)
         color = again.color
     return replace(frame, scene=case.scene, color=color)
 

@@ -15,10 +15,9 @@ import numpy as np
 from ..arrays import Colors
 from ..derivation.derivation import Derivation, derive
 from ..methods import Method
-from ..rendering import steps
+from ..rendering import frame_of
 from ..study import extremes, tradeoff
 from ..study.trade import Trade
-from ..tracer.frame import Frame
 from ..tracer.progress import Progress, Work, scaled
 from ..tracer.settings import Settings
 from .comparison import Comparison
@@ -89,8 +88,7 @@ def _literal(comparison: Comparison, left_out: list[str]) -> Work[Colors | None]
             f"it would take as long again (more than {LITERAL_SECONDS:.0f} s)."
         )
         return None
-    frame = Frame.empty(comparison.scene)
-    yield from steps(comparison.scene, Settings(Method.TEXTBOOK_LITERAL), frame)
+    frame = yield from frame_of(comparison.scene, Settings(Method.TEXTBOOK_LITERAL))
     return frame.color
 
 

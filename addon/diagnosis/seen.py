@@ -22,6 +22,7 @@ from ..tracer.camera import Rays
 from ..tracer.hits import Hits
 from ..tracer.nearest import test_pairs, test_planes
 from ..tracer.progress import Work
+from ..tracer.vector import transform_points
 from ..tracer.world import Pairs, WorldTriangles, box_corners, world_corners
 
 RAYS = 1 << 12  # traced together
@@ -115,7 +116,7 @@ def _test(
     used, number = np.unique(instance, return_inverse=True)
     inverse, regular = _object_from_world(scene.instance_matrices[:3, :, used])
     m = inverse[:, :, number]
-    o = (m[:, :3] * own.origins).sum(axis=1) + m[:, 3]
+    o = transform_points(m, own.origins)
     d = (m[:, :3] * own.directions).sum(axis=1)
     mesh = scene.instance_meshes[instance]
     of_object = BoxRays.of(Rays(o, d), -np.inf, np.inf)

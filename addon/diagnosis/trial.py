@@ -11,7 +11,7 @@ from ..causes.case import Case
 from ..causes.checks.unmodelled import as_known
 from ..causes.explain import explain
 from ..pictures.storage import differing
-from ..rendering import steps
+from ..rendering import frame_of
 from ..scene import Scene, SceneError
 from ..tracer import shading
 from ..tracer.frame import Frame
@@ -131,9 +131,7 @@ def traced_anew(other: Case, case: Case, frame: Frame) -> Work[Frame]:
     if case.settings.samples == 1 and not frame.cancelled and same_shapes(other.scene, case.scene):
         color = shading.colors(other.scene, frame.hits()).reshape(frame.color.shape)
         return replace(frame, scene=other.scene, color=color)
-    traced = Frame.empty(other.scene)
-    yield from steps(other.scene, case.settings, traced)  # here: waiting for others is no work
-    return traced
+    return (yield from frame_of(other.scene, case.settings))  # here: to wait for others is no work
 
 
 def same_shapes(one: Scene, other: Scene) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..causes.case import MOST_VARIANTS, WHOLE, Variant
 from ..causes.explain import explain
-from ..rendering import steps
+from ..rendering import frame_of
 from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.progress import Progress, Work
@@ -43,8 +43,7 @@ def with_variants(evidence: Evidence) -> Work[Evidence]:
                 objects=whole.objects,
             )
             case = case.in_scene(scene)
-            frame = Frame.empty(scene)
-            yield from steps(scene, case.settings, frame, case.tracer)
+            frame = yield from frame_of(scene, case.settings, case.tracer)
             if _look_alike(frame, evidence.frame):  # then each pixel's cause is what it was
                 return Evidence(case, frame, evidence.causes, others)
             found = yield from explain(case, frame)

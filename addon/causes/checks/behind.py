@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...rendering import steps
+from ...rendering import frame_of
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
@@ -33,9 +33,9 @@ def check(pixels: OpenPixels, find: Callable[[Case, Frame], Work[Causes]]) -> Wo
     judged = np.isin(pixels.frame.object_index, left_out)
     if not judged.any():
         return
-    traced = Frame.empty(behind.case.scene)
-    yield from steps(traced.scene, behind.case.settings, traced, pixels.case.tracer)
-    causes = yield from find(behind.case, traced)
+    case = behind.case
+    traced = yield from frame_of(case.scene, case.settings, pixels.case.tracer)
+    causes = yield from find(case, traced)
     judged &= ~causes.unjudged
     if judged.any():
         out.behind = judged

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...arrays import Bools
-from ...rendering import steps
+from ...rendering import frame_of
 from ...scene import Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
@@ -104,9 +104,7 @@ def _at_edges(there: OpenPixels, asked: Bools) -> Work[Bools]:
 
 def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:
     """Trace the case's scene, which is not the one that was traced; return which pixels show it."""
-    scene = pixels.case.scene
-    traced = Frame.empty(scene)
-    yield from steps(scene, Settings(), traced)
+    traced = yield from frame_of(pixels.case.scene, Settings())
 
     def alike(rows: slice) -> Bools:
         part, seen = pixels.picture.at(rows), traced.instance_index[rows]

@@ -16,10 +16,9 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ...causes.checks.probe import Probe
-from ...rendering import steps
+from ...rendering import frame_of
 from ...scene import Camera
 from ...tracer.camera import camera_rays
-from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import WORTH, Evidence
 from .fault import Numbers, Values, of_camera
@@ -101,8 +100,7 @@ class Family:
                 camera = self.camera(scene.camera, *axes @ found.units)
                 if camera is None:
                     break
-                frame = Frame.empty(scene.seen_by(camera))
-                yield from steps(frame.scene, evidence.case.settings, frame)
+                frame = yield from frame_of(scene.seen_by(camera), evidence.case.settings)
                 case = evidence.case.in_scene(frame.scene)
                 there = replace(evidence, case=case, frame=frame, known={})
                 again = self._matched(evidence, there, found.units)

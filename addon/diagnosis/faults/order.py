@@ -28,10 +28,9 @@ def _quarter_turned(case: Case, quarters: int) -> Case | None:
     height, width = case.picture.color.shape[:2]
     if quarters % 2 and height != width:
         return None
-    rows, columns = np.mgrid[:height, :width]
     # The lowest row is the first: anticlockwise is clockwise in the array.
-    where = np.rot90(rows, -quarters), np.rot90(columns, -quarters)
-    return replace(case, picture=case.picture.moved(where))
+    where = np.rot90(np.indices((height, width)), -quarters, axes=(1, 2))
+    return replace(case, picture=case.picture.moved(tuple(where)))
 
 
 # Quarters of a turn anticlockwise.

@@ -21,9 +21,8 @@ from ...causes.case import Case
 from ...causes.checks.probe import SOUND
 from ...files.images import decoded, encoded
 from ...pictures.picture import Picture
-from ...rendering import steps
+from ...rendering import frame_of
 from ...scene import Region
-from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..evidence import Evidence
 from .fault import AnyFault, Effort, Fault, Guess
@@ -193,8 +192,7 @@ def _find(evidence: Evidence) -> Work[list[Small]]:
     """Guess by what factor the picture is smaller, and how, by the sampled pixels."""
     at, shape, out = evidence.sample, evidence.unexplained.shape, []
     for n, name in SHARES.items():
-        rendered = Frame.empty(at_size(evidence.case, 1 / n).scene)
-        yield from steps(rendered.scene, SOUND, rendered)
+        rendered = yield from frame_of(at_size(evidence.case, 1 / n).scene, SOUND)
         for guesses in _downs(n, name, any(size % n for size in shape)):
             first = guesses[0]
             coded = first.coding.into((evidence.frame if first.down else rendered).color)

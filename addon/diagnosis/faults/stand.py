@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Floats
+from ...camera_files.frame import of_quaternion
 from ...projections import ORTHOGRAPHIC
 from ...scene import Camera
 from ...tracer.camera import pixel_size
@@ -30,11 +31,10 @@ def moved(camera: Camera, right: float, up: float, forward: float = 0.0) -> Came
 
 
 def rotation(about: Floats) -> Floats:
-    """Return the rotation by a vector, (3,) radians about the axis along it (Rodrigues), (3, 3)."""
-    angle = float(np.linalg.norm(about))
-    x, y, z = about / angle if angle else about
-    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.asarray(np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k)
+    """Return the rotation by a vector, (3,) radians about the axis along it, (3, 3)."""
+    half = np.linalg.norm(about) / 2
+    x, y, z = np.sinc(half / np.pi) / 2 * about
+    return of_quaternion(float(np.cos(half)), x, y, z)
 
 
 def turned(camera: Camera, right: float, up: float, roll: float) -> Camera:

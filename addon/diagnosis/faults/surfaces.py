@@ -5,7 +5,8 @@ What is done to all colours is the same everywhere, so it is looked for in these
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,8 +23,7 @@ ALL = 0.8  # of the surfaces, at least, that are wrong where all are
 SEVERAL = 3  # surfaces, at least
 
 
-@dataclass(frozen=True, eq=False)
-class Surfaces:
+class Surfaces(NamedTuple):
     """The traced and shown colours of k surfaces of one colour each, the largest first."""
 
     instance: Index  # (k,) or plane
@@ -40,7 +40,7 @@ class Surfaces:
 
     def take(self, some: Bools | Index) -> Surfaces:
         """Return some of them."""
-        return Surfaces(*(getattr(self, f.name)[some] for f in fields(self)))
+        return Surfaces._make(values[some] for values in self)
 
     def names(self, scene: Scene) -> list[str]:
         """Return the objects that have them."""

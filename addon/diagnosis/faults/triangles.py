@@ -10,7 +10,7 @@ from ...arrays import Bools, Places
 from ...causes.case import Case
 from ...causes.checks.probe import SOUND
 from ...projections import ORTHOGRAPHIC
-from ...rendering import steps
+from ...rendering import frame_of
 from ...scene import Mesh, Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
@@ -144,8 +144,7 @@ def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Tri
         other = _without_triangles(case, guess)
         if (yield from evidence.score(other)).gain < 0:
             return None  # where they are missing, they break nothing that agrees
-        frame = Frame.empty(other.scene)
-        yield from steps(other.scene, SOUND, frame)
+        frame = yield from frame_of(other.scene, SOUND)
         shown = evidence.picture.shows(frame)
         wrong = evidence.unexplained & ~shown
     if not (frame.instance_index == instance).any():
