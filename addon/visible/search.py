@@ -111,6 +111,7 @@ class Search:
         rows = np.flatnonzero(~cover.holds(face, before))
         before[rows] = yield from self._sights.before(face[rows], rays.take(rows))
         yield from self._add(face[rows], before[rows])
+        pierced = self._pierced(face, before)
         rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
         for met in (face, before):
             corners = faces.points[:, faces.corners[:, met[rows]]].swapaxes(0, 1)
@@ -120,9 +121,20 @@ class Search:
         face, at = yield from cover.gaps(whole, tries)
         whole[face] = False
         self.seen[whole] = HIDDEN
+        face, at = (np.concatenate(both, axis=-1) for both in zip((face, at), pierced, strict=True))
         self._left &= ~whole & (tries < _TRIES) & (self.area > self._limit)
         some = self._left[face]
         return face[some], at[:, some]
+
+    def _pierced(self, face: Index, before: Index) -> tuple[Index, Floats]:
+        """Return points of faces (n,) in front of what is before a part of them."""
+        rows = np.flatnonzero((before >= 0) & ~self._cover.holds(face, before))
+        face, before = face[rows], before[rows]
+        corners = self._faces.corners
+        a, b, c = corners[:, before]
+        height = self._faces.signs(a, b, c, corners[:, face])
+        box = self._low[:, face], self._high[:, face]
+        return face, middles(self._faces, face, *box, height.value * self._faces.turn[before])
 
     def _look_closely(self) -> Work[None]:
         """Look through many points of faces that few rays meet, so little may be seen of them."""
