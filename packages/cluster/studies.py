@@ -16,19 +16,14 @@ from reference_tracer.tracer.progress import Progress, Work
 
 from . import tasks
 from .cluster import Cluster
-from .pictures import sent_scene
 
 
 def trade(cluster: Cluster, choices: list[tradeoff.Choice], truth: Floats) -> Work[list[TradeRow]]:
     """Have the rows of a trade measured on a cluster."""
-    kept = cluster.keep(truth)
-    return _rows(
-        cluster,
-        [
-            cluster.ask(tasks.trade_rows, sent_scene(cluster, c.scene), c.settings, kept)
-            for c in choices
-        ],
-    )
+    color = cluster.keep(truth)
+    scenes = {scene: cluster.keep(scene) for scene in dict.fromkeys(c.scene for c in choices)}
+    asked = [cluster.ask(tasks.trade_rows, scenes[c.scene], c.settings, color) for c in choices]
+    return _rows(cluster, asked)
 
 
 def extremes_of(

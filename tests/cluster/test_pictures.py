@@ -6,6 +6,7 @@ import json
 import signal
 import time
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,11 +15,12 @@ from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import INPUT_ERROR
 from reference_tracer.files.scenes import save_scene
 from reference_tracer.rendering import render, steps
-from reference_tracer.study import extremes
+from reference_tracer.scene import Scene
+from reference_tracer.study import extremes, tradeoff
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.progress import Meter
+from reference_tracer.tracer.progress import Meter, result_of
 from reference_tracer.tracer.settings import UNPROVEN_SETTINGS, Settings
-from reference_tracer_cluster import pictures
+from reference_tracer_cluster import pictures, studies
 from reference_tracer_cluster.cluster import ClusterError
 from reference_tracer_cluster.connection import connected
 
@@ -128,6 +130,14 @@ def test_what_is_not_wanted_any_more_is_not_done(shared, larger):
             time.sleep(0.1)
         assert not any(again.client.processing().values())
         assert bits(render(larger, tracer=pictures.tracer(again)))
+
+
+def test_a_trade_sends_a_scene_once_for_each_width(cluster, scene, monkeypatch):
+    sent, keep = [], cluster.keep
+    monkeypatch.setattr(cluster, "keep", lambda data: sent.append(data) or keep(data))
+    every = partial(studies.trade, cluster)
+    result_of(tradeoff.measure(scene, width=8, samples=2, every=every))
+    assert sorted(s.camera.width for s in sent if isinstance(s, Scene)) == [2, 4, 8]
 
 
 def test_commands(shared, scene, tmp_path, capsys, monkeypatch):
