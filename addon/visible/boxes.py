@@ -57,10 +57,10 @@ class Boxes(NamedTuple):
 
 def boxes_of(scene: Scene, faces: Faces, cells: Cells, some: Index) -> Work[Boxes]:
     """Return the boxes in which faces (n,) may be seen: hardly larger than a pixel's cells."""
-    first, new = _covering(faces, cells, some)
+    levels, new = _covering(faces, cells, some)
     boxes = new.take(slice(0))
     for level in range(TOP, -1, -1):
-        pairs = zip(boxes.quarters(), new.take(np.flatnonzero(first == level)), strict=True)
+        pairs = zip(boxes.quarters(), new.take(np.flatnonzero(levels == level)), strict=True)
         boxes = Boxes(*(np.concatenate(pair, axis=-1) for pair in pairs))
         farthest = cells.hidden_from(level, boxes.low)
         rows = np.flatnonzero(faces.nearest[boxes.face] >= farthest)

@@ -22,7 +22,8 @@ class Visible:
     area : (m,) float64
         Of a face that is undecided, the most that may be seen of it, in square pixels. Else 0.
     behind : (m,) bool
-        Whether a face that is seen shows its back, where its corners turn to the right.
+        Whether a face that is seen shows its back, where its corners turn to the right; which a
+        mirrored instance does not turn over.
     start : (k + 1,) int
         The first face of each of the scene's instances.
     """

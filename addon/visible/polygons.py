@@ -28,12 +28,18 @@ def cut(polygons: Floats, value: Floats) -> Floats:
     return out
 
 
-def middles(faces: Faces, face: Index, low: Floats, high: Floats) -> Floats:
-    """Return about the middle of each face (n,) in its box from `low` to `high`, (2, n)."""
+def middles(
+    faces: Faces, face: Index, low: Floats, high: Floats, value: Floats | float = 1.0
+) -> Floats:
+    """Return about the middle of each face (n,) in its box from `low` to `high`, (2, n).
+
+    Of what is left where a linear function is not negative, from its values at the corners, (3, n).
+    """
     v = faces.vertices
     corners = faces.corners[:, face]
     w = v.w[corners]
     polygons = np.stack((v.p[corners] - low[0] * w, v.q[corners] - low[1] * w, w), axis=1)
+    polygons = cut(polygons, np.broadcast_to(value, corners.shape))
     for axis, size in enumerate(high - low):
         polygons = cut(polygons, polygons[:, axis])
         polygons = cut(polygons, polygons[:, 2] * size - polygons[:, axis])

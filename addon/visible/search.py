@@ -93,36 +93,43 @@ class Search:
         self._enter(face[own], at[:, own])
         return before, rays, inside
 
-    def _add(self, face: Index, before: Index) -> Work[None]:
-        for part in parts(len(face), _TOGETHER):
-            self._tries[self._cover.add(face[part], before[part])] = 0
-            yield None
-
     def _round(self, face: Index, at: Floats) -> Work[tuple[Index, Floats]]:
         """Trace rays, decide what they tell, and return the next ones: past edges."""
-        faces, cover, covered, tries = self._faces, self._cover, self._covered, self._tries
+        faces = self._faces
+        cover = self._cover
+        covered = self._covered
         before, rays, inside = yield from self._look(face, at)
         self._left &= self.seen == UNDECIDED
         rows = np.flatnonzero(self._left[face])
         face, before, inside, rays = face[rows], before[rows], inside[rows], rays.take(rows)
-        tries[face] += 1
-        yield from self._add(face, before)
-        # What is before the face, but not all of it: another one may be, right before it.
-        rows = np.flatnonzero(~cover.holds(face, before))
-        before[rows] = yield from self._sights.before(face[rows], rays.take(rows))
-        yield from self._add(face[rows], before[rows])
+        self._tries[face] += 1
+        for part in parts(len(face), _TOGETHER):
+            self._tries[cover.add(face[part], before[part])] = 0
+            yield None
+        pierced = self._pierced(face, before)
         rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
         for met in (face, before):
             corners = faces.points[:, faces.corners[:, met[rows]]].swapaxes(0, 1)
             rows = rows[decide(rays.take(rows), corners).crossed]
         covered[face[rows]] = True
         whole = self._left & covered
-        face, at = yield from cover.gaps(whole, tries)
+        face, at = yield from cover.gaps(whole, self._tries)
         whole[face] = False
         self.seen[whole] = HIDDEN
-        self._left &= ~whole & (tries < _TRIES) & (self.area > self._limit)
+        face, at = (np.concatenate(both, axis=-1) for both in zip((face, at), pierced, strict=True))
+        self._left &= ~whole & (self._tries < _TRIES) & (self.area > self._limit)
         some = self._left[face]
         return face[some], at[:, some]
+
+    def _pierced(self, face: Index, before: Index) -> tuple[Index, Floats]:
+        """Return points of faces (n,) in front of what is before a part of them."""
+        rows = np.flatnonzero((before >= 0) & ~self._cover.holds(face, before))
+        face, before = face[rows], before[rows]
+        corners = self._faces.corners
+        a, b, c = corners[:, before]
+        height = self._faces.signs(a, b, c, corners[:, face])
+        box = self._low[:, face], self._high[:, face]
+        return face, middles(self._faces, face, *box, height.value * self._faces.turn[before])
 
     def _look_closely(self) -> Work[None]:
         """Look through many points of faces that few rays meet, so little may be seen of them."""

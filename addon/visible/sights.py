@@ -12,11 +12,8 @@ from ..scene import Scene
 from ..tracer.camera import Rays, camera_rays
 from ..tracer.hits import NOTHING, Hits, Statistics
 from ..tracer.progress import Work
-from ..tracer.vector import cross, dot
 from ..tracer.world import WorldTriangles
 from .faces import Faces
-
-_APART = 2.0**-30  # of t, from a face towards what is before it
 
 
 class Sights:
@@ -41,24 +38,9 @@ class Sights:
         rays = Rays(origins, directions)
         planes = Surfaces.planes_of(self._scene)
         clip = camera.clip_start, camera.clip_end
-        return (yield from self._trace(rays, planes, clip, self._faces.last[face])), rays
-
-    def before(self, face: Index, rays: Rays) -> Work[Index]:
-        """Return the faces that are met by n rays last before the given ones, (n,), about."""
-        a, b, c = self._faces.points[:, self._faces.corners[:, face]].swapaxes(0, 1)
-        normal = cross(b - a, c - a)
-        t = dot(a - rays.origins, normal) / dot(rays.directions, normal) * (1 - _APART)
-        known = np.flatnonzero(np.isfinite(t))
-        back = Rays(rays.origins + t * rays.directions, -rays.directions).take(known)
-        out = np.full(len(face), NOTHING)
-        out[known] = yield from self._trace(back, Surfaces(), (0.0, np.inf), np.inf)
-        return out
-
-    def _trace(
-        self, rays: Rays, planes: Surfaces, clip: tuple[float, float], last: Floats | float
-    ) -> Work[Index]:
+        last = self._faces.last[face]
         hits = yield from hits_through(self._tree, rays, planes, clip, Statistics(), last)
-        return hits.triangle.astype(np.intp)
+        return hits.triangle.astype(np.intp), rays
 
 
 def numbers(faces: Faces, hits: Hits) -> Index:

@@ -11,6 +11,7 @@ from ..scene import Scene, SceneError
 from ..tracer.hits import Statistics
 from ..tracer.progress import Progress, Work, result_of, scaled
 from ..tracer.settings import Settings
+from ..tracer.vector import cross, dot
 from .cells import Cells, finer, scale_of
 from .faces import Faces
 from .found import SEEN, Visible
@@ -63,7 +64,9 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
     yield from scaled(search.steps(cells, work), 0.0, None, "looking behind what is seen")
     seen = np.flatnonzero(search.seen == SEEN)
     behind = np.zeros(faces.count, bool)
-    behind[seen] = faces.turn[seen] > 0
+    x, y, z = scene.instance_matrices[:3, :3].swapaxes(0, 1)
+    mirrored = np.repeat(dot(cross(x, y), z) < 0, np.diff(faces.start))
+    behind[seen] = (faces.turn[seen] > 0) != mirrored[seen]
     return Visible(
         search.seen,
         search.witness.T / scale,

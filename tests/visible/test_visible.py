@@ -181,15 +181,14 @@ def test_what_pierces_the_face_before_it_is_hidden_behind_a_third(projection):
 
 
 def test_both_sides_are_told_apart():
+    """A mirrored instance turns no other side to the camera."""
     front = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]
+    mirrored = np.diag([-1.0, 1, 1, 1])
     for own in (camera(), camera(ORTHOGRAPHIC)):
-        mirrored = np.diag([-1.0, 1, 1, 1])
-        mirrored[0, 3] = 3
-        faces = triangles([front])
-        turned = triangles([front[::-1]])
-        one = judged(scene_of(faces, camera=own))
-        assert one.seen.tolist() == [SEEN] and not one.behind[0]
-        assert judged(scene_of(turned, camera=own)).behind[0]
+        for place in (np.eye(4), mirrored):
+            for points, behind in ((front, False), (front[::-1], True)):
+                scene = scene_of(triangles([points]), camera=own, matrices=[place])
+                assert judged(scene).behind.tolist() == [behind]
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -326,3 +325,15 @@ def test_what_sticks_out_of_a_plane_by_a_rounding_is_hardly_seen(projection):
     found = judged(scene_of((points, bands), camera=own, planes=(plane,)))
     assert (found.area < 1e-6).all()
     assert (found.seen[::2] == SEEN).sum() > 5 and (found.seen[1::2] == UNDECIDED).any()
+
+
+@pytest.mark.parametrize("height", [1e-4, 1e-6, 1e-9])
+@pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
+def test_an_edge_just_above_the_ground_is_seen(projection, height):
+    """Most of the face is below, so that rays through its middle see the ground."""
+    tilt = np.array([[1, 0, 0], [0, 0.28, -0.96], [0, 0.96, 0.28]])
+    face = [(0, 0, -1), (0.25, -0.5, height), (-0.25, 0.5, height)]
+    ground = [(-5, -5, 0), (15, -5, 0), (-5, 15, 0)]
+    own = camera(projection, at=4 * tilt[:, 2], axes=tilt)
+    found = judged(scene_of(triangles([face, ground]), camera=own))
+    assert found.seen.tolist() == [SEEN, SEEN]
