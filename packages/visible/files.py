@@ -83,14 +83,13 @@ class Total:
     def lines(self) -> list[str]:
         """Return a line for each object, one for all, and how little is undecided."""
         line = (
-            "{object}: {seen_from_front:,} faces seen from the front, {seen_from_behind:,} from "
+            "{object}: {seen_from_front:,} seen from the front, {seen_from_behind:,} from "
             "behind, {hidden:,} hidden, {undecided:,} undecided"
         )
-        area = np.max(self.arrays["area"], initial=0.0)
-        return [
-            *(line.format(**row) for row in self.rows()),
-            f"at most {area:.2g} px² may be seen of each that is undecided",
-        ]
+        lines = [line.format(**row) for row in self.rows()]
+        if area := np.max(self.arrays["area"], initial=0.0):
+            lines.append(f"at most {area:.2g} px² may be seen of each that is undecided")
+        return lines
 
     def save(self, arrays: Path, counts: Path, limit: float) -> None:
         """Write the arrays into an .npz, and what they come to into a .json beside it."""

@@ -41,8 +41,8 @@ def contents(folder):
 def test_files_and_lines(reftrace, tmp_path, capsys):
     assert reftrace("--set", "eye=0,-4,0", "angle=40") == 0
     lines = capsys.readouterr().out
-    assert "Front: 1 faces seen from the front, 0 from behind, 0 hidden, 0 undecided" in lines
-    assert "all: 1 faces seen from the front, 1 from behind, 0 hidden, 0 undecided" in lines
+    assert "Front: 1 seen from the front, 0 from behind, 0 hidden, 0 undecided" in lines
+    assert "all: 1 seen from the front, 1 from behind, 0 hidden, 0 undecided" in lines
     with np.load(FILES[0]) as found:
         arrays = dict(found)
     assert arrays["seen"].dtype == np.uint8 and arrays["seen"].shape == (2,)
