@@ -13,9 +13,6 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Index
 from ..certified.bounds import bound, cross_magnitude
-from ..certified.integers import cross as exact_cross
-from ..certified.integers import dot as exact_dot
-from ..certified.integers import integers, sub
 from ..certified.sweep.depth_buffer import ClipRange
 from ..certified.sweep.edge_functions import set_up
 from ..certified.sweep.film import DELTA, Film
@@ -23,17 +20,10 @@ from ..certified.sweep.vertices import Vertices
 from ..scene import Camera, Scene
 from ..tracer.progress import Work
 from ..tracer.vector import cross, dot, transform_points
+from .signs import Signs, exact_signs
 
 EDGES = (1, 2), (2, 0), (0, 1)  # the corners of a face's edges, in their order
 _ROOM = 4  # pixels around a box in which functions are evaluated, too
-
-
-class Signs(NamedTuple):
-    """The signs of n determinants, exactly; and the values as computed, with their bounds."""
-
-    sign: Index
-    value: Floats
-    error: Floats
 
 
 class Within(NamedTuple):
@@ -175,6 +165,13 @@ class Faces:
         turn = self.side[edge]
         return Signs(found.sign * turn, found.value * turn, found.error)
 
+    def height(self, face: Index, point: Index) -> Signs:
+        """Return how far points (..., n) are before faces (n,): positive on the eye's side."""
+        a, b, c = self.corners[:, face]
+        found = self.signs(a, b, c, point)
+        turn = self.turn[face]
+        return Signs(found.sign * turn, found.value * turn, found.error)
+
     def signs(self, a: Index, b: Index, c: Index, before: Index | None = None) -> Signs:
         """Return how points, by their numbers (...), turn for the camera, as `turn` of a face.
 
@@ -199,7 +196,7 @@ class Faces:
         sign[doubt[same]] = value[doubt[same]] = error[doubt[same]] = 0
         doubt = doubt[~same]
         doubtful = [corner[:, doubt] for corner in corners]
-        sign[doubt] = _exact_signs(doubtful, v[:, doubt], parallel)
+        sign[doubt] = exact_signs(doubtful, v[:, doubt], parallel)
         shape = points[0].shape
         return Signs(
             sign.astype(np.int8).reshape(shape), value.reshape(shape), error.reshape(shape)
@@ -225,20 +222,6 @@ class Faces:
         beside |= (self.low[:, faces] > high).any(axis=0) | (self.high[:, faces] < low).any(axis=0)
         nearest = np.fmin(most[3] + found.nearness_error, self.nearest[faces])
         return Within(beside, inside, least[3] - found.nearness_error, nearest)
-
-
-def _exact_signs(corners: list[Floats], v: Floats, parallel: bool) -> list[int]:
-    """Return the signs of (a - v) . n of corners (3, n) each, or v . n, in integers."""
-    lengths, _ = integers(np.hstack((*corners, *(() if parallel else (v,)))))
-    count = v.shape[1]
-    a, b, c = (lengths[k * count : (k + 1) * count] for k in range(3))
-    along = integers(v)[0] if parallel else lengths[3 * count :]
-    found = []
-    for k in range(count):
-        normal = exact_cross(sub(b[k], a[k]), sub(c[k], a[k]))
-        exact = exact_dot(along[k] if parallel else sub(a[k], along[k]), normal)
-        found.append((exact > 0) - (exact < 0))
-    return found
 
 
 def _welded(points: Floats) -> Index:

@@ -124,10 +124,8 @@ def _before(faces: Faces, own: Index, other: Index) -> Bools:
     nearer = []
     for face, points, within, sense in ((own, others, inside, -1), (other, corners, outside, 1)):
         k, row = np.nonzero((within >= 0).all(axis=0))
-        a, b, c = faces.corners[:, face[row]]
-        side = faces.signs(a, b, c, points[k, row]).sign
         rows.append(row)
-        nearer.append(side * faces.turn[face[row]] * sense)
+        nearer.append(faces.height(face[row], points[k, row]).sign * sense)
     p, q = inside[:, _FIRST], inside[:, _LAST]
     i, j = (outside[:, ends].swapaxes(0, 1) for ends in (_FIRST, _LAST))
     k, e, row = np.nonzero((p * q <= 0) & (p != q) & (i * j <= 0) & (i != j))

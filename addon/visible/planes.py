@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Floats, Index
+from ..arrays import Floats
 from ..certified.bounds import Fractions, plane_fractions
 from ..certified.rounding import rounding
 from ..certified.sweep.depth_buffer import ROUNDING, nearness
@@ -43,15 +43,17 @@ def behind_plane(scene: Scene, faces: Faces, plane: Plane, low: Floats, high: Fl
     return np.where(sure, least, -np.inf).reshape(4, -1).min(axis=0)
 
 
-def before_planes(scene: Scene, faces: Faces, face: Index, low: Floats, high: Floats) -> Floats:
-    """Return the parts of faces (n,) that planes may leave in boxes, (k, 3, n), in world space.
+def before_planes(
+    scene: Scene, faces: Faces, polygons: Floats, low: Floats, high: Floats
+) -> Floats:
+    """Return the parts of polygons (l, 3, n) that planes may leave in boxes, in world space.
 
-    A plane that is met by all of a box's rays leaves what may be on the eye's side of it.
+    A plane that is met by all of a box's rays leaves what may be on the eye's side of it. The
+    polygons are faces, cut once at most.
     """
     camera = scene.camera
-    polygons = faces.points[:, faces.corners[:, face]].swapaxes(0, 1)
     largest = np.abs(polygons).max(axis=0)[:, None]
-    for number, plane in enumerate(scene.planes):
+    for number, plane in enumerate(scene.planes, start=1):
         parallel = camera.projection.shares_direction
         away = camera.forward if parallel else plane.point - camera.origin
         normal = -np.sign(away @ plane.normal) * plane.normal[:, None, None]

@@ -8,6 +8,7 @@ from ..arrays import Bools, Floats, Index, parts
 from ..certified.any_rays import decide
 from ..scene import Scene
 from ..tracer.camera import Rays, film_of
+from ..tracer.hits import NOTHING
 from ..tracer.progress import Work
 from .boxes import Boxes, boxes_of
 from .cells import Cells
@@ -16,7 +17,7 @@ from .faces import Faces
 from .found import HIDDEN, SEEN, UNDECIDED
 from .hiding import patches
 from .planes import before_planes
-from .polygons import middles, on_film
+from .polygons import cut, middles, on_film
 from .sights import Sights
 
 _TOGETHER = 1 << 12  # pairs of faces that are compared in one step
@@ -57,6 +58,7 @@ class Search:
         while len(face) and self._cover.work > 0:
             yield None
             face, at = yield from self._round(face, at)
+        self._find_ground()
         yield from self._look_closely()
         yield from self._divide(boxes)
         self.area[self.seen != UNDECIDED] = 0
@@ -68,10 +70,15 @@ class Search:
     def _bound(self, boxes: Boxes) -> None:
         """Note in which box each face may be seen, and how much of it; planes cut that."""
         count = self._faces.count
+        self._ground = np.full(count, NOTHING)
         self.area = boxes.areas(count)
         self._low, self._high = boxes.around(count)
         some = np.flatnonzero(self.area)
-        left = self._before_planes(some)
+        self._cut(some)
+
+    def _cut(self, some: Index) -> None:
+        """Leave out what planes, or faces that cover all of their boxes, hide of some faces."""
+        left = self._parts(some)
         low, high, area = on_film(self._faces, some, left)
         self._low[:, some] = np.fmax(self._low[:, some], low)
         self._high[:, some] = np.fmin(self._high[:, some], high)
@@ -79,10 +86,27 @@ class Search:
         self.area[some[np.isnan(left).all(axis=(0, 1))]] = 0
         self.seen[(self.seen == UNDECIDED) & (self.area == 0)] = HIDDEN
 
-    def _before_planes(self, face: Index) -> Floats:
-        """Return the parts of faces (n,) that planes leave, (k, 3, n), in world space."""
+    def _parts(self, face: Index) -> Floats:
+        """Return what is left of faces (n,), as polygons (k, 3, n) in world space."""
+        faces = self._faces
+        corners = faces.corners[:, face]
+        value = np.ones(corners.shape)
+        own = np.flatnonzero(self._ground[face] >= 0)
+        height = faces.height(self._ground[face[own]], corners[:, own])
+        value[:, own] = height.value + height.error
+        polygons = cut(faces.points[:, corners].swapaxes(0, 1), value)
         box = self._low[:, face], self._high[:, face]
-        return before_planes(self._scene, self._faces, face, *box)
+        return before_planes(self._scene, faces, polygons, *box)
+
+    def _find_ground(self) -> None:
+        """Find for each face that is left one that covers all of its box, if it is tried."""
+        faces = self._faces
+        face = np.flatnonzero(self.seen == UNDECIDED)
+        which, base = self._cover.tried(face)
+        found = faces.within(base, self._low[:, face[which]], self._high[:, face[which]])
+        sure = found.inside.all(axis=0) & faces.clip.inside(found.least, found.most)
+        self._ground[face[which[sure]]] = base[sure]
+        self._cut(face)
 
     def _look(self, face: Index, at: Floats) -> Work[tuple[Index, Rays, Bools]]:
         """Trace n rays for faces; return what they see, the rays, and which may see the faces."""
@@ -125,11 +149,9 @@ class Search:
         """Return points of faces (n,) in front of what is before a part of them."""
         rows = np.flatnonzero((before >= 0) & ~self._cover.holds(face, before))
         face, before = face[rows], before[rows]
-        corners = self._faces.corners
-        a, b, c = corners[:, before]
-        height = self._faces.signs(a, b, c, corners[:, face])
+        height = self._faces.height(before, self._faces.corners[:, face])
         box = self._low[:, face], self._high[:, face]
-        return face, middles(self._faces, face, *box, height.value * self._faces.turn[before])
+        return face, middles(self._faces, face, *box, height.value)
 
     def _look_closely(self) -> Work[None]:
         """Look through many points of faces that few rays meet, so little may be seen of them."""
@@ -137,7 +159,7 @@ class Search:
         thin = np.flatnonzero((self.seen == UNDECIDED) & (self.area <= self._limit))
         for part in parts(len(thin), _RAYS):
             face = thin[part]
-            polygons = self._before_planes(face)
+            polygons = self._parts(face)
             shares = random.dirichlet(np.ones(len(polygons)), _RAYS)
             points = np.tensordot(shares, polygons, 1).swapaxes(0, 1).reshape(3, -1)
             x, y, _ = film_of(self._scene.camera, points)

@@ -93,7 +93,8 @@ def test_what_a_plane_leaves_of_a_face_that_goes_on_behind_the_eye_is_in_its_box
     faces = result_of(Faces.of(scene))
     every = np.arange(count)
     box = np.array(((0.0,), (0.0,))).repeat(count, 1), np.array(((16.0,), (7.0,))).repeat(count, 1)
-    low, high, _ = on_film(faces, every, before_planes(scene, faces, every, *box))
+    polygons = faces.points[:, faces.corners].swapaxes(0, 1)
+    low, high, _ = on_film(faces, every, before_planes(scene, faces, polygons, *box))
     for face, corners in enumerate(points):
         a, b, c = ([Fraction(x) for x in corner] for corner in corners.tolist())
         for before in (a, b):

@@ -313,7 +313,8 @@ def test_a_panorama_is_refused():
 
 
 @pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC])
-def test_what_sticks_out_of_a_plane_by_a_rounding_is_hardly_seen(projection):
+@pytest.mark.parametrize("flat", ["plane", "face"])
+def test_what_sticks_out_of_the_ground_by_a_rounding_is_hardly_seen(projection, flat):
     """A strip that few rays meet has a witness; a tip that none meets may show next to nothing."""
     turns = np.linspace(0, 2 * np.pi, 9)[:-1]
     ring = np.stack((np.cos(turns), np.sin(turns), np.full(8, 2.0**-53)), axis=1)
