@@ -77,8 +77,9 @@ def trace_and_compare(case: Case, literally: bool = False) -> Work[Comparison]:
     tracing = steps(case.scene, case.settings, frame, case.tracer)
     yield from scaled(tracing, 0.0, share * _TRACING, "tracing")
     listing = list_methods(case.scene, case.settings, frame, case.tracer, literally)
-    words = "tracing by the textbook"
-    methods = yield from scaled(listing, share * _TRACING, share * _METHODS, words)
+    methods = yield from scaled(
+        listing, share * _TRACING, share * _METHODS, "tracing by the textbook"
+    )
     done = share * (_TRACING + _METHODS)
     found = yield from scaled(compare(case, frame), done, share - done)
     checked: tuple[FaultRow, ...] = ()

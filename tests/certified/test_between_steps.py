@@ -22,6 +22,7 @@ from .modes import MODES, ON_X86, switch, switched_back
 from .test_ends_of_float64 import scene_at
 
 pytestmark = ON_X86
+TOLD = 94, 167, 209, 346  # seeds where a pixel would be wrong if no step looked
 LENGTHS = (-500, -512, -520, -340, 0)
 
 
@@ -58,7 +59,7 @@ def certified(frame: Frame) -> list[bytes]:
     return [getattr(frame, name).tobytes() for name in names]
 
 
-def hold(make, seeds: range) -> tuple[int, int]:
+def hold(make, seeds) -> tuple[int, int]:
     """Trace a scene for each seed with something switched; returns how many stay, and go."""
     stay = go = 0
     for seed in seeds:
@@ -84,7 +85,7 @@ def hold(make, seeds: range) -> tuple[int, int]:
 
 
 def test_no_certified_pixel_is_wrong(make):
-    stay, go = hold(make, range(60))
+    stay, go = hold(make, [*range(60), *TOLD])
     assert stay > 15 and go > 25
 
 
@@ -113,7 +114,7 @@ def test_without_looking_pixels_would_be_wrong(make, monkeypatch):
     """The counter-example: the test above would find wrong pixels, if there were any."""
     monkeypatch.setattr(arithmetic, "_check_modes", lambda: None)
     with pytest.raises(AssertionError):
-        hold(make, range(50, 60))
+        hold(make, TOLD)
 
 
 def test_t_is_refused_as_long_as_it_is_switched(make):
