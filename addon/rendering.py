@@ -15,8 +15,6 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal, overload
 
-import numpy as np
-
 from .certified import any_rays, plain
 from .certified.arithmetic import AssumptionError, check_assumptions
 from .certified.rounding import rounding
@@ -191,8 +189,10 @@ def trace(
     settings = resolved(settings or Settings(), statistics)
     if rays or every:
         rays = rays or camera_rays(scene.camera, *film_positions(scene.camera.region))
-        both = np.broadcast_arrays(rays.origins, rays.directions)
-        finite(both, (2, 3, rays.count), "The origins and directions of rays")
+        for name in ("origins", "directions"):
+            own = getattr(rays, name)
+            count = 1 if own.shape[1] == 1 else rays.count
+            finite(own, (3, count), f"The {name} of rays")
         o, d = (v.astype(settings.precision.dtype) for v in (rays.origins, rays.directions))
         rays = replace(rays, origins=o, directions=d)
         if every:

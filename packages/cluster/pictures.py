@@ -47,7 +47,8 @@ def _prepared(
     # What it counts of the whole picture is said as of any other.
     yield from TRACERS[settings.method](scene, settings, reach, statistics)
     statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers")
-    given, region = (sent_scene(cluster, scene), settings, reach), scene.camera.region
+    given = sent_scene(cluster, scene), settings, reach
+    region = scene.camera.region
     threads = sum(cluster.workers().values())
     rows = region.height * sum(len(each.rays()) for each in rounds(settings))
     # Each part takes a look at every triangle: few are best.

@@ -196,8 +196,9 @@ def test_rays_in_other_types_and_shapes(make):
     for dtype in (np.float16, np.float32):
         rays = Rays(np.zeros((3, 1), dtype), np.array([[0], [0], [0.5]], dtype))
         assert trace(scene, rays=rays, every=True).t.tolist() == [1]
-    with pytest.raises(ValueError, match="shape"):
-        trace(scene, rays=Rays(np.ones((3, 4)), np.ones((3, 5))))
+    for counts in ((4, 5), (5, 4)):
+        with pytest.raises(SceneError, match="of rays must have the shape"):
+            trace(scene, rays=Rays(*(np.ones((3, count)) for count in counts)))
 
 
 def test_a_method_that_proves_nothing_is_refused(make):
