@@ -12,7 +12,7 @@ from .faces import Faces
 from .hiding import THROUGH, crossed, nearer
 
 _BESIDE = 2.0**-24  # pixels from an edge, where a ray looks past it
-_PLACES = np.array([0.5, 0.03, 0.97, 0.25, 0.75, 0.002])  # in a gap, where rays look, in turn
+_PLACES = np.array([0.5, 0.03, 0.97])  # in a gap, where rays look, in turn
 _TOGETHER = 1 << 9  # edges whose cover is found together
 
 

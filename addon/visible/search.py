@@ -23,7 +23,7 @@ from .sights import Sights
 _TOGETHER = 1 << 12  # pairs of faces that are compared in one step
 _BOXES = 64  # of a face, that are divided
 _FINER = 12  # times that boxes are divided
-_TRIES = 6
+_TRIES = 3
 _RAYS = 64  # through each face of which little may be seen; and as many of them at once
 
 
