@@ -66,7 +66,8 @@ def _ssim(first: Array, second: Array) -> Work[float]:
     """
     shortest = min(first.shape[:2])
     size = min(_WINDOW, shortest - (1 - shortest % 2))
-    height, width = first.shape[0] - size + 1, first.shape[1] - size + 1
+    height = first.shape[0] - size + 1
+    width = first.shape[1] - size + 1
     total = 0.0
     for rows in parts(height, _ROWS):
         for columns in parts(width, _COLUMNS):

@@ -6,26 +6,24 @@ import numpy as np
 
 from ..arrays import Colors
 from ..methods import Method
-from ..rendering import steps
+from ..rendering import frame_of
 from ..scene import Scene
-from ..tracer.frame import Frame
 from ..tracer.progress import Work
 from ..tracer.settings import Settings
 
 # Samples a pixel and direction of the converged picture. With 16, a straight edge along the pixels
 # is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are
-# about CONVERGED_RAYS, but at least twice as many as what is held against it, up to the most that
-# there are. Powers of two are traced together, in a fraction of the time.
+# about CONVERGED_RAYS, but at least twice as many as what is held against it. Powers of two are
+# traced together, in a fraction of the time.
 CONVERGED = 16
 CONVERGED_RAYS = 4_000_000
-MOST = 64
+MOST = 64  # that `Settings` have: pixels are divided for more
 
 
 def samples_of(pixels: int, compared: int) -> int:
     """Return how many a converged picture has, of so many pixels; `compared` have the others."""
     most = min(CONVERGED, (CONVERGED_RAYS / pixels) ** 0.5)
-    enough = (1 << k for k in range(6) if 1 << k >= 2 * compared and 2 << k > most)
-    return next(enough, MOST)
+    return next(1 << k for k in range(8) if 1 << k >= 2 * compared and 2 << k > most)
 
 
 def converged(scene: Scene, samples: int) -> Work[Colors]:
@@ -34,9 +32,11 @@ def converged(scene: Scene, samples: int) -> Work[Colors]:
     It is certified; through a panorama, where that would take long, `watertight` in float64.
     """
     method = Method.CERTIFIED if scene.camera.projection.is_linear else Method.WATERTIGHT
-    frame = Frame.empty(scene)
-    yield from steps(scene, Settings(method, samples=samples), frame)
-    return frame.color
+    times = max(1, samples // MOST)
+    divided = scene.seen_by(scene.camera.divided(times))
+    frame = yield from frame_of(divided, Settings(method, samples=samples // times))
+    width, height = scene.camera.width, scene.camera.height
+    return frame.color.reshape(height, times, width, times, 4).mean(axis=(1, 3))
 
 
 def coverage_error(color: Colors, truth: Colors) -> float:

@@ -93,10 +93,10 @@ def _may_show(
     scene: Scene, faces: Faces, boxes: Boxes, farthest: Floats, planes: Sequence[Plane]
 ) -> Bools:
     """Return in which of n boxes the faces may be seen, before planes and `farthest` (n,)."""
-    face, low, high = boxes.within(faces.low, faces.high)
-    out = (low <= high).all(axis=0)
+    boxes = boxes.within(faces.low, faces.high)
+    out = (boxes.low <= boxes.high).all(axis=0)
     rows = np.flatnonzero(out)
-    face, low, high = face[rows], low[:, rows], high[:, rows]
+    face, low, high = boxes.take(rows)
     farthest = farthest[rows]
     for plane in planes:
         farthest = np.maximum(farthest, behind_plane(scene, faces, plane, low, high))

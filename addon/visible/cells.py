@@ -6,13 +6,11 @@ corner of four cells of one pixel. A cell of level k is 2^k pixels wide.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from ..arrays import Array, Floats, parts
 from ..certified.sweep.depth_buffer import ROUNDING, nearness
-from ..scene import Region, Scene
+from ..scene import Scene
 from ..tracer.camera import film_positions
 from ..tracer.hits import NOTHING, Hits
 from ..tracer.progress import Work
@@ -35,15 +33,6 @@ def scale_of(scene: Scene) -> int:
     while region.width * region.height * (2 * scale) ** 2 <= most:
         scale *= 2
     return scale
-
-
-def finer(scene: Scene, scale: int) -> Scene:
-    """Return a scene with more pixels. The rays through the film stay the same, to the bit."""
-    camera = scene.camera
-    r = camera.region
-    region = Region(scale * r.x0, scale * r.y0, scale * r.x1, scale * r.y1)
-    size = scale * camera.width, scale * camera.height
-    return replace(scene, camera=replace(camera, width=size[0], height=size[1], region=region))
 
 
 class Cells:

@@ -23,8 +23,9 @@ from .sights import Sights
 _TOGETHER = 1 << 12  # pairs of faces that are compared in one step
 _BOXES = 64  # of a face, that are divided
 _FINER = 12  # times that boxes are divided
-_TRIES = 3
-_RAYS = 64  # through each face of which little may be seen; and as many of them at once
+_TRIES = 3  # rays that tell nothing new of a face, before it is left to its boxes
+_RAYS = 64  # through a face that shows next to nothing
+_FACES = 64  # of those, at once
 
 
 class Search:
@@ -73,8 +74,7 @@ class Search:
         self._ground = np.full(count, NOTHING)
         self.area = boxes.areas(count)
         self._low, self._high = boxes.around(count)
-        some = np.flatnonzero(self.area)
-        self._cut(some)
+        self._cut(np.flatnonzero(self.area))
 
     def _cut(self, some: Index) -> None:
         """Leave out what planes, or faces that cover all of their boxes, hide of some faces."""
@@ -125,13 +125,15 @@ class Search:
         before, rays, inside = yield from self._look(face, at)
         self._left &= self.seen == UNDECIDED
         rows = np.flatnonzero(self._left[face])
-        face, before, inside, rays = face[rows], before[rows], inside[rows], rays.take(rows)
+        face = face[rows]
+        before = before[rows]
+        rays = rays.take(rows)
         self._tries[face] += 1
         for part in parts(len(face), _TOGETHER):
             self._tries[cover.add(face[part], before[part])] = 0
             yield None
         pierced = self._pierced(face, before)
-        rows = np.flatnonzero(~covered[face] & inside & cover.holds(face, before))
+        rows = np.flatnonzero(~covered[face] & inside[rows] & cover.holds(face, before))
         for met in (face, before):
             corners = faces.points[:, faces.corners[:, met[rows]]].swapaxes(0, 1)
             rows = rows[decide(rays.take(rows), corners).crossed]
@@ -157,7 +159,7 @@ class Search:
         """Look through many points of faces that few rays meet, so little may be seen of them."""
         random = np.random.default_rng(0)
         thin = np.flatnonzero((self.seen == UNDECIDED) & (self.area <= self._limit))
-        for part in parts(len(thin), _RAYS):
+        for part in parts(len(thin), _FACES):
             face = thin[part]
             polygons = self._parts(face)
             shares = random.dirichlet(np.ones(len(polygons)), _RAYS)

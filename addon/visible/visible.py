@@ -12,7 +12,7 @@ from ..tracer.hits import Statistics
 from ..tracer.progress import Progress, Work, result_of, scaled
 from ..tracer.settings import Settings
 from ..tracer.vector import cross, dot
-from .cells import Cells, finer, scale_of
+from .cells import Cells, scale_of
 from .faces import Faces
 from .found import SEEN, Visible
 from .search import Search
@@ -50,7 +50,7 @@ def steps(scene: Scene, limit: float = LIMIT, work: int = WORK) -> Work[Visible]
             "for perspective and orthographic cameras"
         )
     scale = scale_of(scene)
-    scene = finer(scene, scale)
+    scene = scene.seen_by(camera.divided(scale))
     yield Progress(None, "tracing the pixels' centres")
     hits = yield from trace_hits(scene, Settings(method=Method.CERTIFIED), Statistics())
     yield Progress(None, "looking behind what is seen")

@@ -10,14 +10,15 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.methods import Method
+from reference_tracer.rendering import frame_of
 from reference_tracer.study import tradeoff
-from reference_tracer.study.converged import coverage_error
+from reference_tracer.study.converged import converged, coverage_error, samples_of
 from reference_tracer.study.tradeoff import measure
 from reference_tracer.study.truth import largest_t_error
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Precision
+from reference_tracer.tracer.settings import Precision, Settings
 
 pytestmark = pytest.mark.slow
 
@@ -47,6 +48,19 @@ def trade(ball):
 @pytest.fixture(scope="module")
 def whole(trade):
     return {(r.method, r.precision): r for r in trade.whole}
+
+
+@pytest.mark.parametrize("compared", [1, 8, 33, 64])
+def test_the_converged_picture_has_twice_the_samples_of_all_others(ball, compared):
+    """Else the finest choice would be held against itself, and be without an error."""
+    small = tradeoff.at_width(ball, 8)
+    count = samples_of(48, compared)
+    assert count >= 2 * compared
+    truth = result_of(converged(small, count))
+    pixels = small.seen_by(small.camera.divided(count))
+    every = result_of(frame_of(pixels, Settings("certified"))).color
+    mean = every.reshape(6, count, 8, count, 4).mean(axis=(1, 3), dtype=np.float64)
+    assert np.allclose(truth, mean, atol=1e-5)
 
 
 def test_every_choice_has_its_row(trade):

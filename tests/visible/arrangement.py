@@ -25,7 +25,7 @@ class Surface(NamedTuple):
 def seen_areas(scene) -> list[Fraction]:
     """Return how much of each face of each instance is seen, in square pixels."""
     film = _Film(scene.camera)
-    faces = [film.face(corners) for corners in _world_faces(scene)]
+    faces = [film.face(corners) for corners in world_faces(scene)]
     planes = [film.plane(plane) for plane in scene.planes]
     found = []
     for number, face in enumerate(faces):
@@ -131,7 +131,8 @@ class _Film:
         return polygon
 
 
-def _world_faces(scene):
+def world_faces(scene):
+    """Yield the corners of each face of each instance, as the definition has them."""
     for instance in scene.instances:
         mesh = scene.meshes[instance.mesh]
         m = instance.world_from_object

@@ -14,7 +14,7 @@ from reference_tracer.visible import steps
 from reference_tracer_visible import HIDDEN, SEEN, UNDECIDED, Visible, command
 from reference_tracer_visible.files import Total
 
-from .test_visible import camera, cube, scene_of
+from .scenes import camera, cube, scene_of
 
 FILES = "found.npz", "found.json"
 

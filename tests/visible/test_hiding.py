@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 from reference_tracer.certified.any_rays import decide
+from reference_tracer.scene import Plane
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.visible.faces import Faces
@@ -13,7 +14,7 @@ from reference_tracer.visible.hiding import patches
 from reference_tracer.visible.planes import before_planes
 from reference_tracer.visible.polygons import cut, middles, on_film
 
-from .test_visible import GREY, ORTHOGRAPHIC, Plane, camera, scene_of, triangles
+from .scenes import GREY, ORTHOGRAPHIC, camera, scene_of, triangles
 
 
 def test_a_face_nearly_edge_on_is_beside_no_cell_that_it_covers():
